@@ -136,23 +136,28 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
   Real mass = 0;
   Vector<Real, Dim> positions = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // times mass
   Matrix<Real, Dim> squares = Matrix<Real, Dim>::Zero(), together = Matrix<Real, Dim>::Zero();
-  stencil.for_each_with_offset(
-      [&](std::size_t b, std::size_t node, Real weight, const Vector<Real, Dim>& from_segment) {
-        const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
-        if (!(of_node > Real(0))) {
-          return;
-        }
-        auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
-        const Vector<Real, Dim>* normal = node_ground(b, node).normal;
-        velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
-        const Vector<Real, Dim> position = along_ground(from_segment);
-        const Vector<Real, Dim> weighted = of_node * position;
-        mass += of_node;
-        positions += weighted;
-        velocities += of_node * velocity;
-        squares += position * weighted.transpose();
-        together += velocity * weighted.transpose();
-      });
+  stencil.for_each_with_offset([&](std::size_t b, std::size_t node, Real weight,
+                                   const Vector<Real, Dim>& from_segment) {
+    const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+    if (!(of_node > Real(0))) {
+      return;
+    }
+    auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
+    const Vector<Real, Dim>* normal = node_ground(b, node).normal;
+    velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
+    Vector<Real, Dim> in_space = from_segment;
+    if (grid.mapping().follows_ground) {
+      in_space[Dim - 1] -=
+          segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
+    }
+    const Vector<Real, Dim> position = along_ground(in_space);
+    const Vector<Real, Dim> weighted = of_node * position;
+    mass += of_node;
+    positions += weighted;
+    velocities += of_node * velocity;
+    squares += position * weighted.transpose();
+    together += velocity * weighted.transpose();
+  });
   Nearby result;
   if (!(mass > Real(0))) {
     return result;

@@ -112,13 +112,14 @@ struct ColumnsOfTile {
   Real cell, inverse_cell;              // [m], [1/m]
   mpm::SizesOfBodies sizes;             // half sizes of particles [m]
   Numbers thickness, top, cosine;
+  bool follows_ground = false;  // `top` is above the ground (mpm/mapping.hpp)
 
   // H [m]: column thickness in the band, depth below the column top elsewhere; averaged over columns by the fraction of
   // the box in each.
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD typename At::Value flow_depth(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
-    const Value height = particles.position.load(at, Dim - 1);
+    const Value height = height_of(particles, at);
     const auto in_band = particles.in_band.load_whole(at) > Real(0);
     const bool any_in_band = any(in_band);
     Value depth = Real(0);
@@ -145,7 +146,13 @@ struct ColumnsOfTile {
       const Value number = floor(particles.position.load(at, static_cast<int>(a)) * inverse_cell);
       index = index * Real(columns_per_axis<Dim>) + (number - static_cast<Real>(first_cell[a]));
     }
-    return top.at(index) - particles.position.load(at, Dim - 1);
+    return top.at(index) - height_of(particles, at);
+  }
+
+ private:
+  template <class Particles, class At>
+  [[nodiscard]] THAWSLIDE_HD typename At::Value height_of(const Particles& particles, const At& at) const {
+    return follows_ground ? particles.height_above_ground.load(at) : particles.position.load(at, Dim - 1);
   }
 };
 

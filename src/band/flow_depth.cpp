@@ -48,7 +48,7 @@ void FlowDepth<Dim>::add_tile(const mpm::SparseGrid<Dim>& grid, const mpm::Parti
   part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
-    const Simd<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
+    const Simd<Real> top = grid.mapping().coordinate(particles, batch, Dim - 1) + sizes_.of(particles, batch).half;
     const Simd<Real> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
     std::array<std::array<std::int32_t, mpm::SimdBatch::most>, corners> columns;
@@ -156,6 +156,7 @@ ColumnsOfTile<Dim> FlowDepth<Dim>::of_tile(const mpm::SparseGrid<Dim>& grid, std
   columns.cell = grid.cell();
   columns.inverse_cell = grid.inverse_cell();
   columns.sizes = sizes_.view();
+  columns.follows_ground = grid.mapping().follows_ground;
   for (std::size_t index = 0; index < indices; ++index) {
     const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[index])];
     columns.thickness.numbers[index] = thickness_of(here.column_mass, here.footprint);

@@ -37,6 +37,7 @@ struct StepExtremes {
   Extreme diffusivity;          // largest, of heat [m2/s]
   Extreme seepage;              // largest, of pore pressure [m2/s]
   double pore_stiffness = 0.0;  // largest [Pa]
+  double slope = 0.0;           // largest, of the ground below particles on cells that follow it [1]
 
   THAWSLIDE_HD StepExtremes& operator+=(const StepExtremes& part) {
     density.lower(part.density);
@@ -45,6 +46,7 @@ struct StepExtremes {
     diffusivity.raise(part.diffusivity);
     seepage.raise(part.seepage);
     pore_stiffness = part.pore_stiffness > pore_stiffness ? part.pore_stiffness : pore_stiffness;
+    slope = part.slope > slope ? part.slope : slope;
     return *this;
   }
 };
@@ -85,6 +87,13 @@ THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics& model, const H
                                                                           hydraulic(particles, mpm::ScalarIndex{{p}}))),
                        id});
   found.pore_stiffness = static_cast<double>(physics::pore_stiffness(model.phases, storing, Real(1)));
+  if (particles.ground_slope.is_kept()) {
+    double slope2 = 0.0;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      slope2 += static_cast<double>(particles.ground_slope(p, a) * particles.ground_slope(p, a));
+    }
+    found.slope = sqrt(slope2);
+  }
   return found;
 }
 

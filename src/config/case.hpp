@@ -80,6 +80,7 @@ struct Grid {
   Point min{};  // domain
   Point max{};
   Policy leaving = Policy::stop;  // treatment of particles that leave the domain or the DEM
+  bool follows_terrain = false;   // the ground is on a layer of nodes
   // boundary types at x_min, x_max, y_min, y_max, z_min, z_max
   std::array<BoundaryKind, 6> boundary{};
 };

@@ -336,6 +336,7 @@ void check_case(const Case& checked, Reading& reading) {
     return;
   }
   check_grid(checked, reading);
+  check_cells(checked, reading);
   check_times(checked, reading);
   check_materials(checked, reading);
   check_grounds(checked, reading);

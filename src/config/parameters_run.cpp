@@ -81,6 +81,10 @@ std::vector<Parameter<Grid>> grid_parameters() {
       parameter(&Grid::min, {.key = "min", .unit = "m", .text = "minimum coordinates of the domain"}).required(),
       parameter(&Grid::max, {.key = "max", .unit = "m", .text = "maximum coordinates of the domain"}).required(),
       parameter(&Grid::leaving, {.key = "leaving", .text = "treatment of particles that leave the domain or the DEM"}),
+      parameter(&Grid::follows_terrain,
+                {.key = "follows_terrain",
+                 .text = "make the cells follow the terrain, so that the ground is on a layer of nodes everywhere; "
+                         "the vertical side of a cell stays grid.cell"}),
   };
 }
 

@@ -86,7 +86,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& p
   using Value = typename At::Value;
   const Value mass = particles.mass.load(at);
   const Matrix<Value, Dim> moment =
-      mass * affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
+      seen.weights.affine_moment(Matrix<Value, Dim>(mass * affine_velocity<Dim>(particles, at)));
   auto& carried = added.template of<To>();
   unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     carried.flux[k / Dim][index_in_register<To, Dim> + k % Dim] =
@@ -164,10 +164,10 @@ struct MoveAffine {
     using Square = Matrix<Value, Dim>;
     const Square change = Value(dt) * gradient_of(seen.template read<AffineMotion, Dim>(Layout::acceleration));
     const Square middle = gradient_of(seen.template read<AffineMotion, Dim>(Layout::middle_velocity));
-    const Square moment = affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
+    const Square moment = seen.weights.affine_moment(affine_velocity<Dim>(particles, at));
     const Square velocity = middle + Value(Real(0.5)) * change;
     particles.affine_velocity.store_vector(at, velocity.reshaped());
-    at.add_to(kinetic, -particles.mass.load(at) * moment.cwiseProduct(change).sum());
+    at.add_to(kinetic, -particles.mass.load(at) * moment.cwiseProduct(seen.weights.affine_on_grid(change)).sum());
     add_affine_momentum<AffineVelocity, Dim>(particles, at, seen, added);
   }
 };

@@ -105,7 +105,12 @@ struct OneWeights {
       return momentum;
     }
   }
-  [[nodiscard]] THAWSLIDE_HD const Vector<Real, Dim>& second_moment() const { return moment; }
+  // As those of a batch, on level cells.
+  using Square = Matrix<Real, Dim>;
+  [[nodiscard]] THAWSLIDE_HD Square affine_on_grid(const Square& gradient) const { return gradient; }
+  [[nodiscard]] THAWSLIDE_HD Square affine_moment(const Square& gradient) const {
+    return gradient * moment.asDiagonal();
+  }
 };
 
 // Gather of one particle from the surrounding records.
@@ -201,7 +206,8 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneGaps<Dim>& car
     return smallest;
   }
   const Real* record = carried.planes + at.index * record_size(components_of<Planes, Dim>);
-  return min(smallest, gap_to_plane<Dim>(carried.position, carried.reach, [&](std::size_t k) { return record[k]; }));
+  return min(smallest, max(carried.least, gap_to_plane<Dim>(carried.position, carried.reach,
+                                                            [&](std::size_t k) { return record[k]; })));
 }
 
 }  // namespace thawslide::mpm

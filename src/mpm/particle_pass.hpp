@@ -29,20 +29,26 @@ struct BatchWeights;
 template <int Dim>
 struct BatchWeights<LinearWeights, Dim> {
   LinearStencil<Dim> linear;
+  BatchMapping<Dim> linear_mapping;
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const LinearWeights& /*weights*/, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
-      : linear(linear_stencil(grid, particles, batch)) {}
+      : linear(linear_stencil(grid, particles, batch)), linear_mapping(grid.mapping(), particles.linear_slope, batch) {}
   template <class Functions>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
     static_assert(std::is_same_v<Functions, LinearFunctions>, "this pass has linear shape functions alone");
     return linear;
+  }
+  template <class Functions>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& mapping_of() const {
+    return linear_mapping;
   }
 };
 template <int Dim>
 struct BatchWeights<MomentumWeights<Dim>, Dim> {
   BatchStencil<Dim> momentum;
   LinearStencil<Dim> linear;
+  BatchMapping<Dim> mapping, linear_mapping;
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
@@ -55,13 +61,23 @@ struct BatchWeights<MomentumWeights<Dim>, Dim> {
       return momentum;
     }
   }
+  template <class Functions>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& mapping_of() const {
+    if constexpr (std::is_same_v<Functions, LinearFunctions>) {
+      return linear_mapping;
+    } else {
+      return mapping;
+    }
+  }
 
  private:
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch,
                                        const BatchGridPosition<Dim>& at)
       : momentum(make_stencil(weights.shape, grid, batch, at, weights.sizes.of(particles, batch), weights.sides)),
-        linear{at.offset, batch.nodes, grid.inverse_cell()} {}
+        linear{at.offset, batch.nodes, grid.inverse_cell()},
+        mapping(grid.mapping(), particles.ground_slope, batch),
+        linear_mapping(grid.mapping(), particles.linear_slope, batch) {}
 };
 
 // Weights of momentum with those of APIC.
@@ -85,7 +101,14 @@ struct BatchWeights<AffineWeights<Dim>, Dim> : BatchWeights<MomentumWeights<Dim>
       return Base::template of<Functions>();
     }
   }
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& second_moment() const { return affine.moment; }
+  using Square = Matrix<Simd<Real>, Dim>;
+  // Gradients in space to gradients on the grid; and the same times the second moments.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Square affine_on_grid(const Square& gradient) const {
+    return this->mapping.on_grid(gradient);
+  }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Square affine_moment(const Square& gradient) const {
+    return affine_on_grid(gradient) * affine.moment.asDiagonal();
+  }
 };
 
 // Gather of a batch from the surrounding records.
@@ -97,7 +120,8 @@ struct BatchGather {
   // `Count` components of a record from `first` on: interpolated values and gradients.
   template <class Name, std::size_t Count>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto read(std::size_t first = 0) const {
-    return read_nodes<Count>(weights.template of<typename Name::Functions>(), patches.template of<Name>(), first);
+    return weights.template mapping_of<typename Name::Functions>().in_space(
+        read_nodes<Count>(weights.template of<typename Name::Functions>(), patches.template of<Name>(), first));
   }
   // Records of Planes, for contributions to min-reduced components.
   template <class Name>
@@ -156,7 +180,8 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim> {
   using Scatter = ByName<Named<Adds, typename PartialSums<Adds, Dim>::Carried>...>;
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
-                                   [[maybe_unused]] const Scatter& added) {
+                                   [[maybe_unused]] Scatter& added) {
+    (to_grid<Adds>(weights, added.template of<Adds>()), ...);
     (sums_.template of<Adds>().add(weights.template of<typename Adds::Functions>(), count, added.template of<Adds>()),
      ...);
   }
@@ -164,6 +189,16 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim> {
   THAWSLIDE_ALWAYS_INLINE void skip() { (sums_.template of<Adds>().skip(), ...); }
 
  private:
+  // The kernels of APIC map their fluxes themselves.
+  template <class Name, class Weights, class Carried>
+  THAWSLIDE_ALWAYS_INLINE static void to_grid([[maybe_unused]] const Weights& weights,
+                                              [[maybe_unused]] Carried& carried) {
+    if constexpr (!IsMinReduced<Name> && !std::is_same_v<typename Name::Functions, AffineFunctions>) {
+      if constexpr (Name::flux != no_flux) {
+        weights.template mapping_of<typename Name::Functions>().to_grid(carried);
+      }
+    }
+  }
   template <class Name, class Records>
   static auto& cleared(Records& records, const SparseGrid<Dim>& grid, std::size_t tile) {
     auto& patch = records.template of<Name>().patches(grid.tiles().size())[tile];

@@ -29,6 +29,8 @@ struct ParticleView {
   FieldView<std::int32_t, 1> in_band;
   VectorField step_displacement;
   Scalar volume_strain, previous_temperature, secant_capacity, conduction_in_cell, seepage_in_cell, load_change;
+  Scalar height_above_ground;
+  FieldView<Real, Dim - 1> ground_slope, linear_slope;
 };
 
 // Calls visit(field of a, field of b) for each field, in order. a, b: views, or particles.
@@ -74,6 +76,9 @@ void for_fields_of(A& a, B& b, const Visit& visit) {
   visit(a.conduction_in_cell, b.conduction_in_cell);
   visit(a.seepage_in_cell, b.seepage_in_cell);
   visit(a.load_change, b.load_change);
+  visit(a.height_above_ground, b.height_above_ground);
+  visit(a.ground_slope, b.ground_slope);
+  visit(a.linear_slope, b.linear_slope);
 }
 
 // Valid until the number of particles changes.

@@ -297,6 +297,7 @@ template <class Value, int Dim, class PlanesRead>
 struct GapsToPlanes {
   Value position[Dim];  // [m]
   Value reach;          // [m]
+  Value least;          // gaps are at least this [m]
   PlanesRead planes;
 };
 }  // namespace thawslide::mpm

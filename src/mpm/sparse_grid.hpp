@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/key_index.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/tile.hpp"
 
@@ -26,11 +27,12 @@ class SparseGrid {
   };
 
   // cell: mesh size [m]. layer_of_body: bodies of different layers share no nodes; empty: all share them.
-  explicit SparseGrid(Real cell, std::vector<std::uint8_t> layer_of_body = {})
-      : cell_(cell), inverse_cell_(Real(1) / cell), layer_of_body_(std::move(layer_of_body)) {}
+  explicit SparseGrid(Real cell, std::vector<std::uint8_t> layer_of_body = {}, const Mapping& mapping = {})
+      : cell_(cell), inverse_cell_(Real(1) / cell), mapping_(mapping), layer_of_body_(std::move(layer_of_body)) {}
 
   [[nodiscard]] Real cell() const { return cell_; }
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
+  [[nodiscard]] const Mapping& mapping() const { return mapping_; }
 
   // Updates order, tiles, batches and blocks to the particle positions. Appended particles are added; removed ones must
   // have been passed to `remove`. The canonical order is by nearest node, then by id, independent of the order in
@@ -123,6 +125,7 @@ class SparseGrid {
   }
 
   Real cell_, inverse_cell_;
+  Mapping mapping_;
   std::vector<std::uint8_t> layer_of_body_;
   std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
   std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: nearest node

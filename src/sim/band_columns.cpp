@@ -99,7 +99,8 @@ void Simulation<Dim>::band_columns_follow(const mpm::SparseGrid<Dim>& grid,
       return NodeGround{nullptr, Real(0)};
     }
     const auto& known = ground_on_grid.block(b)[k];
-    return NodeGround{&known.normal, known.distance};
+    // On cells that follow the ground, nodes in contact lie above their footpoints.
+    return NodeGround{&known.normal, model_.following ? Real(0) : known.distance};
   };
   const auto thickness = static_cast<Real>(band_thickness());
   band_columns_->update_from_nodes(grid, ground, node_ground, thickness, dt_, nodes);

@@ -15,10 +15,48 @@ namespace thawslide::sim {
 
 namespace {
 
+// On cells that follow the ground: columns of particles of equal height. Parts of the body that stand on the terrain
+// begin at the ground of the grid, and have the same thickness there.
+template <int Dim>
+void seed_columns(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
+                  const BodyShape<Dim>& shape, int number, std::vector<Seed<Dim>>& seeds) {
+  const double spacing = parameters.grid.cell / body.particles_per_axis, tie = 1e-9 * parameters.grid.cell;
+  std::array<long, 2> first{}, last{};
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    first[a] = std::lround(std::ceil((shape.lower(a) - tie - parameters.grid.min[a]) / spacing - 0.5));
+    last[a] = std::lround(std::floor((shape.upper(a) + tie - parameters.grid.min[a]) / spacing - 0.5));
+  }
+  for (long j = first[1]; j <= last[1]; ++j) {
+    for (long i = first[0]; i <= last[0]; ++i) {
+      const std::array<long, 2> index{i, j};
+      Vector<double, Dim> position;
+      std::array<std::uint32_t, 3> lattice{};
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        position[static_cast<int>(a)] = parameters.grid.min[a] + (static_cast<double>(index[a]) + 0.5) * spacing;
+        lattice[a] = static_cast<std::uint32_t>(index[a] - first[a]);
+      }
+      const Vector<double, Dim - 1> below = (position - model.origin).template head<Dim - 1>();
+      const double terrain = model.following->terrain().height(below) + model.origin[Dim - 1];
+      const double ground = model.following->height(below) + model.origin[Dim - 1];
+      for (const auto& [low, high] : shape.parts_over(position[0])) {
+        const bool stands = low <= terrain + tie;
+        const double bottom = stands ? ground : std::max(low, ground), top = stands ? high + (ground - terrain) : high;
+        const long count = top > bottom ? std::lround((top - bottom) / spacing) : 0;
+        const double height = (top - bottom) / static_cast<double>(std::max(1L, count));
+        for (long k = 0; k < count; ++k) {
+          position[Dim - 1] = bottom + (static_cast<double>(k) + 0.5) * height;
+          seeds.push_back({number, position, top - position[Dim - 1], height * std::pow(spacing, Dim - 1), lattice});
+          ++lattice[Dim - 1];
+        }
+      }
+    }
+  }
+}
+
 // Places particles at the centres of equal parts of the cells.
 template <int Dim>
-void seed_body(const config::Case& parameters, const config::Body& body, const BodyShape<Dim>& shape, int number,
-               std::vector<Seed<Dim>>& seeds) {
+void seed_body(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
+               const BodyShape<Dim>& shape, int number, std::vector<Seed<Dim>>& seeds) {
   const double spacing = parameters.grid.cell / body.particles_per_axis;
   const double volume = std::pow(spacing, Dim);
   if constexpr (Dim == 3) {
@@ -27,6 +65,10 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
       shape.release()->seed(corner, spacing, number, seeds);
       return;
     }
+  }
+  if (model.following) {
+    seed_columns(parameters, model, body, shape, number, seeds);
+    return;
   }
   std::array<long, 3> first{}, last{};
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -63,8 +105,9 @@ constexpr double release_tolerance = 0.05;
 
 // seeds: those of the body begin at index `first`.
 template <int Dim>
-void require_volume(const config::Case& parameters, const std::string& name, const config::Body& body,
-                    const BodyShape<Dim>& shape, std::size_t first, std::vector<Seed<Dim>>& seeds) {
+void require_volume(const config::Case& parameters, const Model<Dim>& model, const std::string& name,
+                    const config::Body& body, const BodyShape<Dim>& shape, std::size_t first,
+                    std::vector<Seed<Dim>>& seeds) {
   const double spacing = parameters.grid.cell / body.particles_per_axis;
   double seeded = 0.0;
   for (std::size_t p = first; p < seeds.size(); ++p) {
@@ -88,8 +131,8 @@ void require_volume(const config::Case& parameters, const std::string& name, con
         Dim == 2 ? "m3 per m" : "m3", seeds.size() - first, spacing, rounded_text(seeded, 3),
         100.0 * volume_tolerance));
   }
-  // Scales the release to its exact volume, because its edges are not aligned with the lattice.
-  for (std::size_t p = first; shape.release() && p < seeds.size(); ++p) {
+  // Scales columns to the body's exact volume, because its edges are not aligned with the lattice.
+  for (std::size_t p = first; (shape.release() || model.following) && p < seeds.size(); ++p) {
     seeds[p].volume *= fraction;
   }
 }
@@ -243,8 +286,8 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     const std::size_t before = seeds.size();
     const BodyShape<Dim>& shape = shapes[bodies.size()];
     names.push_back(name);
-    seed_body(parameters, body, shape, static_cast<int>(bodies.size()), seeds);
-    require_volume(parameters, name, body, shape, before, seeds);
+    seed_body(parameters, model, body, shape, static_cast<int>(bodies.size()), seeds);
+    require_volume(parameters, model, name, body, shape, before, seeds);
     require_above_ground(parameters, model, name, before, seeds);
     if (shape.release()) {
       require_within_domain(parameters, name, before, seeds);

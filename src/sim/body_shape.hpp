@@ -117,6 +117,29 @@ class BodyShape {
     return profile_at(profile_.surface, x);
   }
 
+  // Bottom and top [m] of the parts of the body over x, between its first and last x; not of releases.
+  [[nodiscard]] std::vector<std::pair<double, double>> parts_over(double x) const {
+    std::vector<double> ends;
+    switch (body_->shape) {
+      case config::BodyShape::box:
+        ends = {lower_[Dim - 1], upper_[Dim - 1]};
+        break;
+      case config::BodyShape::polygon:
+        for_crossings(x, [&](double z) { ends.push_back(z); });
+        std::sort(ends.begin(), ends.end());
+        break;
+      case config::BodyShape::surface:
+      case config::BodyShape::release:
+        ends = {profile_at(profile_.terrain, x), profile_at(profile_.surface, x)};
+        break;
+    }
+    std::vector<std::pair<double, double>> parts;
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      parts.emplace_back(ends[k], ends[k + 1]);
+    }
+    return parts;
+  }
+
  private:
   void limit_to_profile() {
     lower_[0] = std::numeric_limits<double>::infinity();

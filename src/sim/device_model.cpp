@@ -16,6 +16,7 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim>& mod
     bool is_requested;
     const char* what;
   } options[] = {
+      {model.following != nullptr, "grid.follows_terrain"},
       {model.motion.width.varies(), "a case.width that varies along x"},
       {!model.constraints.frames.empty(), "a [frame]"},
       {model.between_bodies.any(), "frictional contact between bodies ([contact])"},

@@ -9,6 +9,7 @@
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
 #include "sim/substrates.hpp"
+#include "terrain/following_ground.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
 #include "terrain/profile_surface.hpp"
@@ -271,12 +272,33 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
   return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, width);
 }
 
+// Makes the cells of the grid follow the ground. The layers of nodes have no end along the vertical.
+template <int Dim>
+void follow_ground(const config::Case& parameters, const mpm::SectionWidth& width, Model<Dim>& model) {
+  typename terrain::Surface<Dim>::Point extent;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    extent[a] = static_cast<double>(model.constraints.extent[a]);
+  }
+  model.following = std::make_shared<terrain::FollowingGround<Dim>>(model.ground, parameters.grid.cell, extent,
+                                                                    model.motion.sizes, width);
+  model.ground = model.following;
+  model.constraints.faces[2 * (Dim - 1)] = model.constraints.faces[2 * Dim - 1] = config::BoundaryKind::open;
+  model.motion.sides.lower[Dim - 1] = model.motion.sides.upper[Dim - 1] = mpm::PrescribedSides<Dim>::none;
+}
+
 // Sets the thickness of the cells that form the band if it follows the ground, and its maximum at the initial bodies.
 template <int Dim>
 void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim>& model) {
   using Layer = terrain::LayerThickness<Dim>;
   using Point = typename Layer::Point;
   model.largest_layer = static_cast<Real>(parameters.grid.cell);
+  if (model.following) {  // layers have one thickness along the vertical
+    const double cell = parameters.grid.cell;
+    model.layer_thickness = [ground = model.following, cell](const Vector<Real, Dim - 1>& point) {
+      return static_cast<Real>(cell * ground->slope_cosine(point.template cast<double>(), cell));
+    };
+    return;
+  }
   if (!model.ground || parameters.band.cut_cells != config::CutCells::equal_thickness) {
     return;
   }
@@ -357,6 +379,9 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
                          ? mpm::SectionWidth(parameters.general.width.table, model.origin[0])
                          : mpm::SectionWidth();
   model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile, width);
+  if (parameters.grid.follows_terrain) {
+    follow_ground(parameters, width, model);
+  }
   model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);
   return model;

@@ -13,6 +13,7 @@
 #include "mpm/constraints.hpp"
 #include "mpm/motion.hpp"
 #include "terrain/contact.hpp"
+#include "terrain/following_ground.hpp"
 #include "terrain/polyline.hpp"
 #include "terrain/substrates.hpp"
 #include "terrain/surface.hpp"
@@ -27,7 +28,9 @@ struct Model {
   mpm::BetweenBodies between_bodies;
   terrain::ContactModel<Dim> contact;
   band::BandModel<Dim> band;
-  std::shared_ptr<const terrain::Surface<Dim>> ground;    // null if there is none
+  std::shared_ptr<const terrain::Surface<Dim>> ground;  // null if there is none
+  // `ground` if the cells of the grid follow it, otherwise null
+  std::shared_ptr<const terrain::FollowingGround<Dim>> following;
   std::shared_ptr<const terrain::Substrates> substrates;  // null if the ground is of one kind
   std::optional<terrain::Polyline> profile;               // ground, if it is a line over x
   // Thickness of the cells that form the band, over horizontal positions, both in [m]; empty: one cell. The maximum
@@ -39,6 +42,13 @@ struct Model {
   Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0 if there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is the entrained bed material
 };
+
+// Background grid without particles.
+template <int Dim>
+mpm::SparseGrid<Dim> make_grid(const config::Case& parameters, const Model<Dim>& model) {
+  return mpm::SparseGrid<Dim>(static_cast<Real>(parameters.grid.cell), model.between_bodies.layer_of_body,
+                              {model.following != nullptr});
+}
 
 // site: contents of the map files of the case; required if the terrain is a DEM.
 template <int Dim>

@@ -47,6 +47,8 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
     particles_.mass(p) = particles_.volume(p) * physics::mixture_density(model_.motion.phases, particles_.porosity(p),
                                                                          particles_.liquid_saturation(p));
   }
+  are_particles_located_ = false;
+  locate_particles();
   grid_.update(particles_, 0);  // without sorting, so the new particles stay last
   update_ground();
   if (model_.band.pressure && model_.band.needs_normal_load()) {

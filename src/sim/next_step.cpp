@@ -40,7 +40,11 @@ std::string advice_on(LimitKind kind) {
 template <int Dim>
 band::StepExtremes Simulation<Dim>::extremes() const {
   const bool are_on_device = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
-  return are_on_device ? device_sums_.extremes : extremes_of(model_, particles());
+  if (are_on_device) {
+    return device_sums_.extremes;
+  }
+  locate_particles();
+  return extremes_of(model_, particles());
 }
 
 template <int Dim>

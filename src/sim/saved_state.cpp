@@ -46,10 +46,11 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   }
   require_sound(particles_, model_, next_id_, state);
   // Rows are sorted by id after a restart, so the former order is invalid.
-  grid_ = mpm::SparseGrid<Dim>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
+  grid_ = make_grid(parameters_, model_);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     particles_.previous_temperature(p) = particles_.temperature(p);
   }
+  are_particles_located_ = false;
   find_particles_cells();
   if (parameters_.time.stepping == config::Stepping::adaptive && monitor_.first_step == 0.0) {
     monitor_.first_step = adaptive_step();  // steps were fixed so far

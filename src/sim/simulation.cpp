@@ -107,10 +107,19 @@ void Simulation<Dim>::stop_for_or_remove_particles() {
 
 template <int Dim>
 void Simulation<Dim>::find_particles_cells() {
+  locate_particles();
   grid_.update(particles_, sorting_interval_);
   update_ground();
   if (grid_.blocks_changed() && !parameters_.mechanics.enabled) {
     terrain::start_contact(grid_, ground(), nodes_);  // there is no contact, and no step resolves it
+  }
+}
+
+template <int Dim>
+void Simulation<Dim>::locate_particles() const {
+  if (model_.following && !are_particles_located_) {
+    model_.following->locate(particles_);
+    are_particles_located_ = true;
   }
 }
 
@@ -247,6 +256,7 @@ void Simulation<Dim>::update_positions() {
     const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
     mpm::update_positions(particles_, Vector<Real, Dim>(-beyond), Vector<Real, Dim>(model_.constraints.extent + beyond),
                           invalid_);
+    are_particles_located_ = false;
     return;
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -282,7 +292,7 @@ Simulation<Dim>::Simulation(const config::Case& parameters, const config::Site& 
     : parameters_(require_memory<Dim>(parameters, site)),  // checked before any allocation
       site_(site),
       model_(make_model<Dim>(parameters, site)),
-      grid_(static_cast<Real>(parameters.grid.cell), model_.between_bodies.layer_of_body),
+      grid_(make_grid(parameters, model_)),
       bed_(make_bed<Dim>(parameters, site, model_)) {
   if (model_.between_bodies.any()) {
     body_contact_ = std::make_unique<mpm::BodyContact<Dim>>();
@@ -337,14 +347,19 @@ void Simulation<Dim>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
+  particles_.height_above_ground.keep(model_.following != nullptr);
+  particles_.ground_slope.keep(model_.following != nullptr);
+  particles_.linear_slope.keep(model_.following != nullptr);
   band::keep_fields(model_.band, particles_);
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
   fill_bodies(parameters_, site_, model_, particles_);
+  are_particles_located_ = false;
+  locate_particles();  // the limits of a time step depend on the slope below them
   particles_at_start_ = particles_.size();
   next_id_ = static_cast<std::int64_t>(particles_at_start_);
   band::set_heat_content(model_.band, particles_);
-  grid_ = mpm::SparseGrid<Dim>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
+  grid_ = make_grid(parameters_, model_);
 }
 
 // Marks the particles in the band before anything has moved.

@@ -38,22 +38,30 @@ bool viscosity_rules(double cell, const WaveSpeeds& speeds, double viscosity_tim
 }
 
 // Text on the cause of a material's wave limit.
-std::string wave_text(const std::string& material, double cell, const WaveSpeeds& speeds, double viscosity_time) {
+std::string wave_text(const std::string& material, double cell, const std::string& on_cells, const WaveSpeeds& speeds,
+                      double viscosity_time) {
   if (viscosity_rules(cell, speeds, viscosity_time)) {
-    return fmt::format(
-        "the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {} m/s) on cells of {} m", material,
-        viscosity_time, rounded_text(speeds.viscous, 3), cell);
+    return fmt::format("the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {} m/s) on {}",
+                       material, viscosity_time, rounded_text(speeds.viscous, 3), on_cells);
   }
   const std::string viscosity = viscosity_time > 0.0 ? fmt::format(", viscosity {} s", viscosity_time) : "";
-  return fmt::format("the elastic wave of material '{}' ({} m/s{}) on cells of {} m", material,
-                     rounded_text(speeds.elastic, 3), viscosity, cell);
+  return fmt::format("the elastic wave of material '{}' ({} m/s{}) on {}", material, rounded_text(speeds.elastic, 3),
+                     viscosity, on_cells);
 }
 
 // Calls take(step [s], kind, id of the limiting particle, text) for every limit; text() describes it.
 template <int Dim, class Visit>
 void for_limits(const config::Case& parameters, const Model<Dim>& model, double thickness,
                 const band::StepExtremes& found, const Visit& visit) {
-  const double cell = parameters.grid.cell;
+  // On cells that follow the ground, the thickness of their layers along its normal, where it is steepest.
+  const double cell = parameters.grid.cell / std::hypot(1.0, found.slope);
+  const auto on_cells = [&] {
+    const std::string cells = fmt::format("cells of {} m", parameters.grid.cell);
+    return found.slope > 0.0
+               ? fmt::format("{}, {} m thick across the steepest ground below a particle ({} degrees)", cells,
+                             rounded_text(cell, 3), rounded_text(std::atan(found.slope) * 180.0 / pi, 2))
+               : cells;
+  };
   if (parameters.mechanics.enabled) {
     band::Extreme lightest = found.density, stiffest = found.elastic_density;
     if (model.bed_density > Real(0)) {  // entrained material is included from the start
@@ -73,7 +81,7 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
       const band::Extreme& what = is_viscous || of_pores > of_skeleton ? lightest : stiffest;
       visit(wave_fraction * wave_limit(cell, speeds, viscosity_time),
             is_viscous ? LimitKind::viscosity : LimitKind::wave, what.particle,
-            [&] { return wave_text(model.material_names[m], cell, speeds, viscosity_time); });
+            [&] { return wave_text(model.material_names[m], cell, on_cells(), speeds, viscosity_time); });
     }
     if (found.speed.value > 0.0) {
       visit(particle_fraction * cell / found.speed.value, LimitKind::particle_speed, found.speed.particle,

@@ -10,7 +10,8 @@ namespace thawslide::terrain {
 // are summed over a node and its neighbours. The weights are 1/4, 1/2, 1/4 along the ground and 1 across it, because
 // the rows that carry the load can differ from those that have the area. If a slope cuts through cells, the load and
 // the area of a single node are unrelated, but their local sums are consistent. Exact if a deep body ends on a grid
-// line; the covered area is too small if the body is thinner than a cell. Without ground nearby, the area is
+// line; the covered area is too small if the body is thinner than a cell. On cells that follow the ground, load and
+// area of a column of nodes belong together, and there are no sums along the ground. Without ground nearby, the area is
 // `smallest_area` [m2].
 template <int Dim>
 std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim>& grid,

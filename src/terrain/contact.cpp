@@ -105,7 +105,7 @@ Real filled_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim
 template <int Dim>
 Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                          const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
-  return covered_fraction<Dim>(k, ground.block(b)[k].normal, [&](int direction, int node) {
+  return covered_fraction<Dim>(k, across_layers(grid, ground.block(b)[k].normal), [&](int direction, int node) {
     const std::int32_t block = grid.blocks_about_block(b)[direction];
     return block == KeyIndex::absent ? Real(0)
                                      : filled_fraction_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
@@ -134,14 +134,17 @@ struct GivenStrengths {
 };
 
 template <int Dim>
-void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, std::size_t b, const BlockContact<Dim>& contact,
-                      LoadedNodes& nodes) {
+void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, const typename GroundOnGrid<Dim>::Block& known, std::size_t b,
+                      const BlockContact<Dim>& contact, LoadedNodes& nodes) {
   const BasalNodes& basal = contact.basal;
   const auto append = [&](auto& all, const auto& column) {
     all.insert(all.end(), column.begin(), column.begin() + static_cast<std::ptrdiff_t>(basal.count));
   };
   for (std::size_t c = 0; c < basal.count; ++c) {
-    const Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
+    Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
+    if (grid.mapping().follows_ground) {
+      position[Dim - 1] = known[contact.node[c]].elevation;
+    }
     nodes.position.insert(nodes.position.end(), position.data(), position.data() + Dim);
   }
   append(nodes.area, contact.area);
@@ -171,7 +174,7 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
       BlockContact<Dim> contact;
       find_contact(grid, ground, known, model, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time, dt,
                    nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
-      add_loaded_nodes(grid, b, contact, given.nodes);
+      add_loaded_nodes(grid, *known, b, contact, given.nodes);
     }
   }
   const std::size_t count = given.nodes.strength.size();
@@ -213,8 +216,10 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
         const mpm::NodeConstraints<Dim> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
-            known.bend * approach(model.distance_check, nodes.near_ground(b, k)[NearGround::clearance], dt, state.mass,
-                                  Real(state.momentum.dot(known.normal)));
+            known.bend *
+            approach(model.distance_check,
+                     clearance_along_normal(grid, known.normal, nodes.near_ground(b, k)[NearGround::clearance]), dt,
+                     state.mass, Real(state.momentum.dot(known.normal)));
         if (base[BaseLayout::load] > Real(0)) {
           loaded[b] = 1;
         }

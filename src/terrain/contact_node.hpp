@@ -112,6 +112,19 @@ THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Re
   return load / (dt * max(covered, smallest_area));
 }
 
+// The same on cells that follow the ground, where the column of the node alone has both load and area. Nodes below the
+// ground bear load of particles that have sunk in. base(layer): record of BaseLayout of the node below, the node itself
+// and the node above.
+template <int Dim, class Base>
+THAWSLIDE_HD Real pressure_of_column(Real dt, Real smallest_area, const Base& base) {
+  Real load = 0, covered = 0;
+  for (std::size_t layer = 0; layer < 3; ++layer) {
+    load += base(layer)[mpm::BaseLayout::load];
+    covered += base(layer)[mpm::BaseLayout::covered];
+  }
+  return load / (dt * max(covered, smallest_area));
+}
+
 // Contact node with normal pressure [Pa] and slip speed; all other members are 0.
 template <int Dim>
 THAWSLIDE_HD physics::basal::ContactNode loaded_node(Real pressure, const Vector<Real, Dim>& into_ground,

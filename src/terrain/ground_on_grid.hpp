@@ -48,6 +48,18 @@ void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std
   }
 }
 
+// Clearance along the normal [m] from that of a record, which is along the vertical on cells that follow the ground.
+template <int Dim>
+Real clearance_along_normal(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& normal, Real clearance) {
+  return grid.mapping().follows_ground ? -normal[Dim - 1] * clearance : clearance;
+}
+
+// Direction into the ground across the layers of nodes near it.
+template <int Dim>
+Vector<Real, Dim> across_layers(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& normal) {
+  return grid.mapping().follows_ground ? Vector<Real, Dim>(-Vector<Real, Dim>::Unit(Dim - 1)) : normal;
+}
+
 template <int Dim>
 class GroundOnGrid {
   using T = mpm::Tile<Dim>;
@@ -158,6 +170,8 @@ class GroundOnGrid {
       known.plane = static_cast<Real>(nodes[n].plane);
       known.space = static_cast<Real>(nodes[n].space);
       known.distance = static_cast<Real>(nodes[n].distance);
+      known.elevation = static_cast<Real>(nodes[n].elevation);
+      known.plane_scale = static_cast<Real>(nodes[n].plane_scale);
       any_candidate_[k] |= known.candidate ? 1 : 0;
     }
   }

@@ -8,6 +8,7 @@
 #include "terrain/convex_polygon.hpp"
 #include "terrain/nearest_on_triangle.hpp"
 #include "terrain/surface_integrals.hpp"
+#include "terrain/triangle_rule.hpp"
 
 namespace thawslide::terrain {
 
@@ -174,6 +175,40 @@ HeightField::Point HeightField::gradient(const Point& point, double width) const
 double HeightField::height(const Point& point) const {
   const Cell cell = cell_at(point);
   return cell.centre[2] + cell.gradient(cell.triangle_at(point)).dot(point - cell.centre.head<2>());
+}
+
+HeightField::ColumnMeans HeightField::column_means(const Point& at, double cell_size) const {
+  const Point from = at.array() - cell_size, to = at.array() + cell_size;
+  const auto hat = [&](const Vector<double, 3>& point) {
+    return (1.0 - std::abs(point[0] - at[0]) / cell_size) * (1.0 - std::abs(point[1] - at[1]) / cell_size);
+  };
+  double weights = 0.0;
+  ColumnMeans means{0.0, 0.0};
+  for_triangles(from, to, [&](const Cell& there, std::size_t k) {
+    const ConvexPolygon in_reach = ConvexPolygon(there.triangle(k)).over(from, to);
+    const double stretch = std::hypot(1.0, there.gradient(k).norm());
+    ConvexPolygon half[2], quarter[2];
+    in_reach.split(0, at[0], half[0], half[1]);
+    for (const ConvexPolygon& side : half) {
+      side.split(1, at[1], quarter[0], quarter[1]);
+      for (const ConvexPolygon& part : quarter) {
+        for (int corner = 1; corner + 1 < part.size(); ++corner) {
+          const Vector<double, 3>&a = part[0], &b = part[corner], &c = part[corner + 1];
+          const double plan = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+          for (const auto& [weight, twice] : triangle_rule) {
+            for (const Vector<double, 3>* once : {&a, &b, &c}) {
+              const Vector<double, 3> point = twice * (a + b + c) + (1.0 - 3.0 * twice) * *once;
+              const double of_hat = weight * plan * hat(point);
+              weights += of_hat;
+              means.height += of_hat * point[2];
+              means.area += of_hat * stretch;
+            }
+          }
+        }
+      }
+    }
+  });
+  return {means.height / weights, means.area / weights};
 }
 
 double HeightField::highest(const Point& from, const Point& to) const {

@@ -26,6 +26,8 @@ class HeightField final : public Surface<3> {
   [[nodiscard]] double height(const Point& point) const override;
   // With zero width: gradient of the triangle that contains the place; on an edge, of one of the two.
   [[nodiscard]] Point gradient(const Point& point, double width) const override;
+  // Exact to round-off.
+  [[nodiscard]] ColumnMeans column_means(const Point& at, double cell) const override;
   [[nodiscard]] double highest(const Point& from, const Point& to) const override;
 
   // Area and space are exact to round-off. The normal is along the integral of S n dA if the node has area, otherwise

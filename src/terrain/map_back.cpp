@@ -23,9 +23,12 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<
         continue;
       }
       const bool touching = ground != nullptr && nodes.contact(b, k)[Contact::touching] > Real(0);
-      const GroundOfMappedBack<Dim> below{touching, model.distance_check,
-                                          touching ? &ground->block(b)[k].normal : nullptr,
-                                          touching ? nodes.near_ground(b, k)[mpm::NearGround::clearance] : Real(0)};
+      GroundOfMappedBack<Dim> below{touching, model.distance_check, nullptr, Real(0)};
+      if (touching) {
+        below.normal = &ground->block(b)[k].normal;
+        below.clearance =
+            clearance_along_normal(grid, *below.normal, nodes.near_ground(b, k)[mpm::NearGround::clearance]);
+      }
       work += map_back<Dim>(mpm::NodeConstraints<Dim>{on_block, k}, below, gravity, dt, record, nodes.motion(b, k),
                             nodes.velocity(b, k));
     }

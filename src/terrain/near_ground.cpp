@@ -49,6 +49,14 @@ void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim
                         const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
   // in units of a particle's contact offset
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);
+  if (grid.mapping().follows_ground) {
+    for (std::size_t p = first; p < particles.size(); ++p) {
+      const Real half = model.sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
+      const Real height = particles.height_above_ground(p);
+      particles.contact_offset(p) = height < within_lowest_layer * half ? height : half;
+    }
+    return;
+  }
   mpm::PatchOf<mpm::Planes, Dim> patch;
   const mpm::MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
@@ -92,14 +100,16 @@ void to_candidates(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& gr
 template <int Dim>
 void near_ground_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                          const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
-  to_candidates<mpm::NearGround, mpm::Clearance>(grid, ground, model,
-                                                 AddNearGround<Dim>{model.phases, model.lubrication}, particles, nodes);
+  to_candidates<mpm::NearGround, mpm::Clearance>(
+      grid, ground, model, AddNearGround<Dim>{model.phases, model.lubrication, grid.mapping().follows_ground},
+      particles, nodes);
 }
 
 template <int Dim>
 void clearance_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                        const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
-  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim>{}, particles, nodes);
+  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim>{grid.mapping().follows_ground}, particles,
+                                nodes);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                            \

@@ -17,7 +17,7 @@ struct PlanesOfGround {
 
   static Record record_of(const GroundAtNode<Dim>& known) {
     Record record{known.plane};
-    mpm::set_vector<Dim>(record, mpm::Planes::normal, known.normal);
+    mpm::set_vector<Dim>(record, mpm::Planes::normal, known.plane_scale * known.normal);
     return record;
   }
   [[nodiscard]] Record operator()(const mpm::NodeAt& at) const { return record_of(ground.block(at.block)[at.node]); }

@@ -129,4 +129,28 @@ Polyline::LinearFraction Polyline::linear_fraction(double x, double z, double ce
   return fraction;
 }
 
+// The integrands are polynomials of second degree between the points of the polyline, for which Simpson's rule is
+// exact.
+Polyline::HatMeans Polyline::hat_means(double x, double cell) const {
+  HatMeans means;
+  const auto add_half = [&](double begin, double end) {
+    double from = begin;
+    for (std::size_t k = segment(from); from < end; ++k) {
+      const double to = k + 2 < x_.size() ? std::min(end, std::max(from, x_[k + 1])) : end;
+      const double middle = 0.5 * (from + to);
+      const double slope = gradient(middle), base = height(middle);
+      for (const auto& [u, weight] :
+           {std::pair(from, 1.0 / 6.0), std::pair(middle, 4.0 / 6.0), std::pair(to, 1.0 / 6.0)}) {
+        const double hat = weight * (to - from) / cell * std::max(0.0, 1.0 - std::abs(u - x) / cell);
+        means.height += hat * (base + slope * (u - middle));
+        means.length += hat * std::hypot(1.0, slope);
+      }
+      from = to;
+    }
+  };
+  add_half(x - cell, x);
+  add_half(x, x + cell);
+  return means;
+}
+
 }  // namespace thawslide::terrain

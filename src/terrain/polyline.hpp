@@ -35,6 +35,13 @@ class Polyline {
   };
   [[nodiscard]] LinearFraction linear_fraction(double x, double height, double cell) const;
 
+  // Means over the hat function max(0, 1 - |u - x|/cell): height [m], and length of the ground per horizontal length.
+  // Exact for a polyline.
+  struct HatMeans {
+    double height = 0, length = 0;
+  };
+  [[nodiscard]] HatMeans hat_means(double x, double cell) const;
+
   [[nodiscard]] const std::vector<double>& x() const { return x_; }
   [[nodiscard]] const std::vector<double>& heights() const { return height_; }
 

@@ -22,6 +22,10 @@ class ProfileSurface final : public Surface<Dim> {
       : line_(std::move(line)), width_(std::move(width)), spacing_(spacing), layers_(layers) {}
 
   [[nodiscard]] double height(const Point& point) const override { return line_.height(point[0]); }
+  [[nodiscard]] typename Surface<Dim>::ColumnMeans column_means(const Point& at, double cell) const override {
+    const Polyline::HatMeans means = line_.hat_means(at[0], cell);
+    return {means.height, means.length};
+  }
   // Gradient of the segment at the place, independent of the width.
   [[nodiscard]] Point gradient(const Point& point, double width) const override;
   [[nodiscard]] double highest(const Point& from, const Point& to) const override {

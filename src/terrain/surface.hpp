@@ -15,12 +15,14 @@ struct GroundAtNode {
   bool candidate = false;    // the node's linear shape function overlaps the ground
   int substrate = 0;         // below the node (substrates.hpp)
   Vector<Real, Dim> normal;  // unit vector from the sliding mass into the ground, along G = integral of S n dA
-  Real area = 0;      // B = integral of the shape function S over the ground's surface [m2]; sums to that surface
-  Real bend = 1;      // B/|G|: 1 on a plane, larger where the ground bends within reach of the node
-  Real plane = 0;     // c.n with c = integral of x S dA / B: places x with x.n = c.n are the node's plane [m];
-                      // infinite unless the node is a candidate
-  Real space = 0;     // integral of the shape function over the space above the ground [m3]
-  Real distance = 0;  // from the ground, positive above it [m]
+  Real area = 0;         // B = integral of the shape function S over the ground's surface [m2]; sums to that surface
+  Real bend = 1;         // B/|G|: 1 on a plane, larger where the ground bends within reach of the node
+  Real plane = 0;        // c.n with c = integral of x S dA / B: places x with x.n = c.n are the node's plane [m];
+                         // infinite unless the node is a candidate
+  Real space = 0;        // integral of the shape function over the space above the ground [m3]
+  Real distance = 0;     // from the ground, positive above it [m]
+  Real elevation = 0;    // of the node, only on cells that follow the ground [m]
+  Real plane_scale = 1;  // factor of both sides of x.n = c.n; `plane` includes it (terrain/following_ground.hpp)
 };
 
 template <int Dim>
@@ -40,6 +42,13 @@ class Surface {
   [[nodiscard]] virtual Point gradient(const Point& point, double width) const = 0;
   // Highest elevation over the rectangle between two places [m].
   [[nodiscard]] virtual double highest(const Point& from, const Point& to) const = 0;
+
+  // Means over the hat function of a column of nodes, max(0, 1 - |x - x_at|/cell) along each axis: elevation [m], and
+  // area of the ground per horizontal area.
+  struct ColumnMeans {
+    double height, area;
+  };
+  [[nodiscard]] virtual ColumnMeans column_means(const Point& at, double cell) const = 0;
 
   // Fills the ground data of the `edge`^Dim nodes of a block, x fastest. first: index of its first node along each axis
   // of a grid with cells of side `cell` [m].

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "terrain/triangle_rule.hpp"
+
 namespace thawslide::terrain {
 
 namespace {
@@ -44,21 +46,13 @@ struct Moments {
   std::array<OfCorners, 2> first_along{OfCorners::Zero(), OfCorners::Zero()};
 };
 
-// Six-point rule on triangles, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II.
-// Each point has two equal barycentric coordinates.
-struct RulePoint {
-  double weight, twice;
-};
-constexpr std::array<RulePoint, 2> rule{RulePoint{0.22338158967801146570, 0.44594849091596488632},
-                                        RulePoint{0.10995174365532186764, 0.09157621350977074346}};
-
 Moments moments(const ConvexPolygon& segment, const Vector<double, 3>& floor) {
   Moments sum;
   const Vector<double, 3> a = segment[0] - floor;
   for (int k = 1; k + 1 < segment.size(); ++k) {
     const Vector<double, 3> b = segment[k] - floor, c = segment[k + 1] - floor;
     const double plan = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    for (const auto& [weight, twice] : rule) {
+    for (const auto& [weight, twice] : triangle_rule) {
       const Vector<double, 3> all = twice * (a + b + c);
       for (const Vector<double, 3>* once : {&a, &b, &c}) {
         const Vector<double, 3> at = all + (1.0 - 3.0 * twice) * *once;

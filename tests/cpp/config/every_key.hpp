@@ -112,7 +112,8 @@ inline std::string release_of_a_surface() {
       changed({{"outline = \"inputs/release.shp\"\npolygons = [\"glacier\"]\nname_attribute = \"kind\"\n",
                 "raster = \"inputs/codes.tif\"\ncode = 3\n"},
                {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
-                "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"}},
+                "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"},
+               {"[grid]", "[grid]\nfollows_terrain = true"}},
               release_on_dem);
   text.resize(text.find("[contact]"));  // refused with columns
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");

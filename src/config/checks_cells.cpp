@@ -1,0 +1,43 @@
+// Checks of cells that follow the terrain.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/body_layers.hpp"
+#include "config/checks.hpp"
+
+namespace thawslide::config {
+
+void check_cells(const Case& checked, Reading& reading) {
+  if (!reading.are_valid({"grid.follows_terrain"}) || !checked.grid.follows_terrain) {
+    return;
+  }
+  const auto v = static_cast<std::size_t>(checked.general.dimension - 1);
+  const auto is_prescribed = [](const HeatBoundary& side) { return side.kind != HeatBoundaryKind::insulated; };
+  const bool has_pairs = checked.contact.between_bodies == BodyContact::frictional || !checked.contact_pairs.empty();
+  const struct {
+    bool is_requested;
+    const char* what;
+  } options[] = {
+      {checked.terrain.kind == TerrainKind::none, "terrain.type = \"none\""},
+      {checked.terrain.form == TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
+      {checked.mechanics.shape_function != ShapeFunction::ugimp, "mechanics.shape_function other than \"ugimp\""},
+      {!checked.frames.empty(), "a [frame]"},
+      {has_pairs, "frictional contact between bodies"},
+      {checked.bed.law != BedLaw::none, "an erodible bed (bed.law)"},
+      {is_prescribed(checked.heat.boundary[2 * v]) || is_prescribed(checked.heat.boundary[2 * v + 1]),
+       "heat.boundary at the bottom or top of the domain"},
+  };
+  std::string found;
+  for (const auto& option : options) {
+    found += option.is_requested ? (found.empty() ? "" : ", ") + std::string(option.what) : "";
+  }
+  if (!found.empty()) {
+    reading.report("grid.follows_terrain",
+                   fmt::format("grid.follows_terrain: cells that follow the terrain do not support all options of this "
+                               "case (found {}; allowed: none of these). Set grid.follows_terrain = false.",
+                               found));
+  }
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,81 @@
+// Mapping between space and the coordinates of the background grid. On level cells, both are the same. The vertical
+// coordinate of cells that follow the ground is the height above it,
+//   zeta = z - B(x),   B = sum_i S_i(x) b_i,
+// with the heights b_i of the columns of nodes and the horizontal shape functions S_i of the particle. Nodes are at
+// (x_i, b_i + zeta_k), and the weights sum_i S_i(x) sum_k S_k(zeta) reproduce linear functions of space:
+//   d/dx = d/dx at constant zeta - (dB/dx) d/dzeta,   d/dz = d/dzeta,   dB/dx = sum_i (dS_i/dx) b_i.
+// The linear shape functions of temperature and pore pressure use dB/dx of their own derivatives. The determinant is 1,
+// therefore volumes and masses need no factor. terrain/following_ground.hpp sets zeta and dB/dx.
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+#include "mpm/particles.hpp"
+#include "mpm/reading.hpp"
+
+namespace thawslide::mpm {
+
+struct Mapping {
+  bool follows_ground = false;
+
+  // Coordinate of particles along an axis of the grid [m].
+  template <int Dim, class At>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto coordinate(const Particles<Dim>& particles, const At& at, int axis) const {
+    return follows_ground && axis == Dim - 1 ? particles.height_above_ground.load(at)
+                                             : particles.position.load(at, axis);
+  }
+};
+
+// Mapping at the particles of a batch. slope: of the ground, by the shape functions of a record.
+template <int Dim>
+class BatchMapping {
+ public:
+  template <class At>
+  THAWSLIDE_ALWAYS_INLINE BatchMapping(const Mapping& mapping, const Field<Real, Dim - 1>& slope, const At& at)
+      : follows_ground_(mapping.follows_ground) {
+    if (follows_ground_) {
+      for (int a = 0; a + 1 < Dim; ++a) {
+        slope_[a] = slope.load(at, a);
+      }
+    }
+  }
+
+  // Gradients on the grid to gradients in space.
+  template <std::size_t Count>
+  THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> in_space(Reading<Dim, Simd<Real>, Count> reading) const {
+    if (follows_ground_) {
+      unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
+        for (int a = 0; a + 1 < Dim; ++a) {
+          reading.gradient[static_cast<std::size_t>(a)][c] -= slope_[a] * reading.gradient[Dim - 1][c];
+        }
+      });
+    }
+    return reading;
+  }
+  // Fluxes in space to the fluxes that gradients on the grid multiply.
+  template <class Carried>
+  THAWSLIDE_ALWAYS_INLINE void to_grid(Carried& carried) const {
+    if (follows_ground_) {
+      unrolled<Carried::width>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
+        for (int a = 0; a + 1 < Dim; ++a) {
+          carried.flux[Dim - 1][c] -= slope_[a] * carried.flux[a][c];
+        }
+      });
+    }
+  }
+  // Gradients of a vector in space, d v_a / d x_b, to gradients on the grid.
+  THAWSLIDE_ALWAYS_INLINE Matrix<Simd<Real>, Dim> on_grid(Matrix<Simd<Real>, Dim> gradient) const {
+    if (follows_ground_) {
+      for (int a = 0; a + 1 < Dim; ++a) {
+        gradient.col(a) += gradient.col(Dim - 1) * slope_[a];
+      }
+    }
+    return gradient;
+  }
+
+ private:
+  bool follows_ground_;
+  Vector<Simd<Real>, Dim - 1> slope_;  // dB/dx, only if the cells follow the ground
+};
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,86 @@
+// Ground of a background grid whose cells follow it (mpm/mapping.hpp). The terrain as it is gives each column of nodes
+// two means over its hat function S_i: the height b_i, and the area of the ground per horizontal area. The ground that
+// particles meet is B = sum S_i b_i. With b interpolated linearly between columns, and the slope grad b,
+//   G_i = integral of S_i (grad b, -1) dx dy,   n_i = G_i/|G_i|,
+//   chi_i = integral of S_i dA over the terrain / |G_i|,
+// where chi counts only bends that b resolves. All are computed when the sliding mass arrives.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "mpm/body_sizes.hpp"
+#include "mpm/particles.hpp"
+#include "mpm/section_width.hpp"
+#include "terrain/surface.hpp"
+
+namespace thawslide::terrain {
+
+template <int Dim>
+class FollowingGround final : public Surface<Dim> {
+ public:
+  using Point = typename Surface<Dim>::Point;
+  using NodeIndex = typename Surface<Dim>::NodeIndex;
+  using ColumnMeans = typename Surface<Dim>::ColumnMeans;
+
+  // terrain: the ground as it is. extent: of the domain [m]; beyond it, columns have the height of the nearest one.
+  // sizes: half sizes of particles by body, in cells; those of the first body define height() and gradient().
+  FollowingGround(std::shared_ptr<const Surface<Dim>> terrain, double cell, const Point& extent,
+                  const mpm::BodySizes& sizes, mpm::SectionWidth width);
+  ~FollowingGround() override;
+
+  // B and its gradient. Over more than a cell, the gradient is that of the terrain.
+  [[nodiscard]] double height(const Point& point) const override;
+  [[nodiscard]] Point gradient(const Point& point, double width) const override;
+  [[nodiscard]] double highest(const Point& from, const Point& to) const override {
+    return terrain_->highest(from, to);
+  }
+  [[nodiscard]] bool is_known(const Point& point) const override { return terrain_->is_known(point); }
+  [[nodiscard]] bool is_known(const Point& from, const Point& to) const override {
+    return terrain_->is_known(from, to);
+  }
+  [[nodiscard]] ColumnMeans column_means(const Point& at, double cell) const override {
+    return terrain_->column_means(at, cell);
+  }
+
+  // The ground as it is.
+  [[nodiscard]] const Surface<Dim>& terrain() const { return *terrain_; }
+
+  // Nodes of a grid that follows the ground: those of layer 0 are on it. `plane` and `plane_scale` give clearances
+  // along the vertical.
+  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const override;
+
+  // Sets the height above the ground and the slopes of the ground of all particles, from their positions.
+  void locate(mpm::Particles<Dim>& particles) const;
+
+ private:
+  using Column = std::array<int, Dim - 1>;
+  struct Below {
+    double height;
+    Point slope, linear_slope;  // by the shape functions of momentum, and by linear ones
+  };
+  // Bend and direction of the ground of a column as far as the heights of columns resolve it.
+  struct Resolved {
+    Point slope;       // mean by the hat function
+    double area;       // mean area per horizontal area
+    double resultant;  // |G| per horizontal area
+    double middle;     // mean height
+    [[nodiscard]] double bend() const { return area / resultant; }
+  };
+
+  [[nodiscard]] double column_height(const Column& column) const;
+  [[nodiscard]] Below below(const Point& point, double half) const;
+  [[nodiscard]] Resolved resolved(const Column& column) const;
+  [[nodiscard]] double largest_bend_about(const Column& column) const;
+  [[nodiscard]] const double* heights_of_chunk(std::size_t chunk) const;
+
+  std::shared_ptr<const Surface<Dim>> terrain_;
+  double cell_;
+  mpm::BodySizes sizes_;
+  mpm::SectionWidth width_;
+  Column columns_{}, chunks_{};                     // along each axis, including the margins
+  mutable std::vector<std::atomic<double*>> made_;  // heights by chunk, x fastest; null: not yet computed
+};
+
+}  // namespace thawslide::terrain

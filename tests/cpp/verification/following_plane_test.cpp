@@ -1,0 +1,146 @@
+// Slides on planes with cells that follow the ground.
+#include "../support/following_plane.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "../support/record.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+// Block of 200 m x 40 m on a plane, with gravity normal to it.
+Spread spread_of_block(const Incline& plane, double cell) {
+  Simulation<2> simulation(body_on_plane(
+      plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
+      {fmt::format("case.gravity_tilt={}", -plane.degrees)}));
+  run_until(simulation, 16.0);
+  return Spread(simulation, plane);
+}
+
+TEST(FollowingPlane, BlockSpreadsAsOnAGridLine) {
+  Record record(
+      "Cells that follow the ground: loose block that spreads on a plane",
+      "A block of 200 m x 40 m without cohesion on a base with the friction coefficient 0.02. Gravity is "
+      "normal to the plane.",
+      "standard deviation of the mass along the plane after 16 s: 115.8 m, the limit on fine cells whose grid "
+      "line is the ground",
+      "refinement of the cell");
+  for (const double degrees : {0.0, 10.0, 20.0, 30.0, 40.0}) {
+    const Spread on_20 = spread_of_block({degrees}, 20.0), on_10 = spread_of_block({degrees}, 10.0);
+    const std::string plane = fmt::format(", plane of {} degrees", degrees);
+    record.expect_near("cells of 20 m over exact" + plane, on_20.along / 115.8, 1.0, 0.03);
+    record.expect_near("cells of 10 m over exact" + plane, on_10.along / 115.8, 1.0, 0.01);
+    record.expect_near("growth of the volume, cells of 20 m" + plane, on_20.growth, 0.0, 0.05);
+    record.expect_near("growth of the volume, cells of 10 m" + plane, on_10.growth, 0.0, 0.03);
+  }
+}
+
+// Elastic slab, 40 m thick, with upright ends. sets: keys of the case.
+class Slab {
+ public:
+  static constexpr double length = 400.0, thickness = 40.0, gravity = 9.81;  // [m], [m], [m/s2]
+
+  Slab(const Incline& plane, double cell, std::vector<std::string> sets) : plane_(plane) {
+    const auto foot = plane.place(-0.5 * length, 0.0), toe = plane.place(0.5 * length, 0.0);
+    const Vector<double, 2> up(0.0, thickness / std::cos(plane.angle()));
+    sets.insert(sets.end(), {"material.grains.law=elastic", "material.grains.youngs_modulus=5e8",
+                             "material.grains.viscosity_time=0.02", "mechanics.slope_shear=true"});
+    simulation_ = std::make_unique<Simulation<2>>(body_on_plane(plane, cell, {foot, toe, toe + up, foot + up}, sets));
+  }
+
+  [[nodiscard]] Simulation<2>& simulation() { return *simulation_; }
+  // Along the plane [m/s].
+  [[nodiscard]] double velocity() const { return mean_of(simulation_->particles().velocity).dot(plane_.down()); }
+  [[nodiscard]] double overburden() const {
+    const auto& particles = simulation_->particles();
+    return particles.mass(0) / particles.initial_volume(0) * gravity * thickness * std::cos(plane_.angle());
+  }
+  // Pressures of nodes further than a fifth of the length from the ends, over the overburden.
+  [[nodiscard]] std::vector<double> pressures() const {
+    std::vector<double> found;
+    const auto& nodes = simulation_->nodes();
+    const double centre = mean_of(simulation_->particles().position)[0];
+    for (std::size_t b = 0; b < simulation_->grid().blocks().size(); ++b) {
+      for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
+        const auto& contact = nodes.contact(b, k);
+        const double from_centre = mpm::node_position(simulation_->grid(), b, k)[0] - centre;
+        if (contact[mpm::Contact::touching] > 0.0 && std::abs(from_centre) < 0.3 * length * std::cos(plane_.angle())) {
+          found.push_back(contact[mpm::Contact::normal_force] / contact[mpm::Contact::area] / overburden());
+        }
+      }
+    }
+    return found;
+  }
+
+ private:
+  // Mean over the mass.
+  template <class Field>
+  [[nodiscard]] Vector<double, 2> mean_of(const Field& field) const {
+    const auto& particles = simulation_->particles();
+    Vector<double, 2> sum = Vector<double, 2>::Zero();
+    double mass = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      sum += particles.mass(p) * field.template get<Vector<double, 2>>(p);
+      mass += particles.mass(p);
+    }
+    return sum / mass;
+  }
+
+  Incline plane_;
+  std::unique_ptr<Simulation<2>> simulation_;
+};
+
+TEST(FollowingPlane, SlabHasItsAccelerationAndPressure) {
+  Record record("Cells that follow the ground: slab on a plane",
+                "An elastic slab, 400 m long and 40 m thick, slides on a plane with the friction coefficient 0.25; "
+                "cells of 10 m. Pressures in one time step.",
+                "acceleration g (sin a - mu cos a); normal pressure of single nodes rho g h cos a", "rigid slab");
+  for (const double degrees : {35.0, 48.0, 60.0}) {
+    const Incline plane{degrees};
+    Slab slab(plane, 10.0, {"basal.friction_angle=14.036243467926479"});
+    run_until(slab.simulation(), 4.0);
+    const double first = slab.velocity(), began = slab.simulation().time();
+    run_until(slab.simulation(), 8.0);
+    const double found = (slab.velocity() - first) / (slab.simulation().time() - began) / Slab::gravity;
+    double mean = 0.0;
+    std::vector<double> errors;
+    for (const double pressure : slab.pressures()) {
+      errors.push_back(pressure - 1.0);
+      mean += pressure;
+    }
+    mean /= static_cast<double>(errors.size());
+    const std::string on_plane = fmt::format(", plane of {} degrees", degrees);
+    record.expect_near("error of the acceleration over gravity" + on_plane,
+                       found - (std::sin(plane.angle()) - 0.25 * std::cos(plane.angle())), 0.0, 1e-4);
+    record.expect_near("mean pressure of nodes over exact" + on_plane, mean, 1.0, 0.01);
+    record.expect_near("rms error of the pressure of nodes" + on_plane, root_mean_square(errors), 0.0, 0.05);
+  }
+}
+
+TEST(FollowingPlane, CohesionActsOnTheBase) {
+  Record record("Cells that follow the ground: cohesion of a slab",
+                "The same slab on a base with a cohesion of 0.1 MPa and no friction. Mean from 1 to 2 s.",
+                "shear force = cohesion times length", "definition of cohesion");
+  for (const double degrees : {35.0, 48.0}) {
+    const Incline plane{degrees};
+    Slab slab(plane, 10.0, {"basal.friction_angle=0.0", "basal.cohesion=1e5", "basal.cohesion_law=constant"});
+    run_until(slab.simulation(), 1.0);
+    double force = 0.0, time = 0.0;
+    while (slab.simulation().time() < 2.0 - 1e-9) {
+      slab.simulation().step(slab.simulation().next_step(2.0));
+      force += slab.simulation().contact().force.dot(plane.down()) * slab.simulation().last_step();
+      time += slab.simulation().last_step();
+    }
+    record.expect_near(fmt::format("shear force over exact, plane of {} degrees", degrees),
+                       force / time / (1e5 * Slab::length), 1.0, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::verification
