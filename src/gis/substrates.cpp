@@ -30,9 +30,9 @@ std::string substrate_key(const std::string& substrate, const std::string& key) 
 // Key that specifies the extent of a substrate.
 std::string area_key(const std::string& name, const config::Substrate& substrate) {
   return substrate_key(name, !substrate.raster.empty()        ? "raster"
-                      : !substrate.outline.empty()     ? "outline"
-                      : std::isfinite(substrate.x_min) ? "x_min"
-                                                       : "x_max");
+                             : !substrate.outline.empty()     ? "outline"
+                             : std::isfinite(substrate.x_min) ? "x_min"
+                                                              : "x_max");
 }
 
 // Also sets `inside` to the part in the domain.

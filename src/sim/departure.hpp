@@ -29,9 +29,7 @@ class Departure {
   }
 
  private:
-  static int sign_of(double sum, double most) {
-    return std::abs(sum) <= least_sum * most ? 0 : sum > 0.0 ? 1 : -1;
-  }
+  static int sign_of(double sum, double most) { return std::abs(sum) <= least_sum * most ? 0 : sum > 0.0 ? 1 : -1; }
 
   double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
 };

@@ -11,7 +11,8 @@ namespace thawslide::terrain {
 // Sets particles.contact_offset [m], the distance from nodal planes at which a particle touches the ground, for
 // particles at memory index `first` and above. The lowest particles of a body that rests on the ground at the start
 // touch at their initial distance, which varies on a slope across the grid. Other particles touch with the edge of
-// their box, in the initial direction of the ground below them. On cells that follow the ground, distances are vertical.
+// their box, in the initial direction of the ground below them. On cells that follow the ground, distances are
+// vertical.
 template <int Dim>
 void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                         const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first = 0);
