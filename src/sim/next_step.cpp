@@ -38,6 +38,14 @@ std::string advice_on(LimitKind kind) {
 }  // namespace
 
 template <int Dim>
+void Simulation<Dim>::locate_particles() const {
+  if (model_.following && !are_particles_located_) {
+    model_.following->locate(particles_);
+    are_particles_located_ = true;
+  }
+}
+
+template <int Dim>
 band::StepExtremes Simulation<Dim>::extremes() const {
   const bool are_on_device = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
   if (are_on_device) {
@@ -100,6 +108,7 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                               \
+  template void Simulation<Dim>::locate_particles() const;       \
   template band::StepExtremes Simulation<Dim>::extremes() const; \
   template StepLimit Simulation<Dim>::step_limit() const;        \
   template double Simulation<Dim>::adaptive_step() const;        \

@@ -116,14 +116,6 @@ void Simulation<Dim>::find_particles_cells() {
 }
 
 template <int Dim>
-void Simulation<Dim>::locate_particles() const {
-  if (model_.following && !are_particles_located_) {
-    model_.following->locate(particles_);
-    are_particles_located_ = true;
-  }
-}
-
-template <int Dim>
 void Simulation<Dim>::update_ground() const {
   if (model_.ground && grid_.blocks_changed()) {
     ground_.update(*model_.ground, grid_, model_.substrates.get());

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "../support/channel_on_dem.hpp"
 #include "../support/fields.hpp"
 #include "../support/following_plane.hpp"
-#include "../support/slide_on_dem.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 
@@ -62,18 +62,6 @@ TEST(FollowingCells, ResultsAreReproducibleInThePlane) {
   expect_the_same_bits<2>(make, 60);
 }
 
-// Broken rock without cohesion.
-const std::string broken_rock = R"(
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 0.0
-gaps_close_first = true
-viscosity_time = 0.01
-)";
-
 // Gully with waves along it.
 double gully(double x, double y) {
   return 0.002 * y * y - 0.4 * x + 3.0 * std::sin(0.1 * x) + 2.0 * std::sin(0.13 * y);
@@ -81,13 +69,13 @@ double gully(double x, double y) {
 
 std::unique_ptr<Simulation<3>> slide_in_gully() {
   const Place half(200.0, 200.0);
-  const std::string text =
-      release_on_dem({20.0, 0.01, 10.0, {-200.0, -200.0, -200.0}, {200.0, 200.0, 300.0}}, broken_rock, 20.0);
+  const auto slide =
+      release_on_dem({20.0, 0.01, 10.0, {-200.0, -200.0, -200.0}, {200.0, 200.0, 300.0}}, loose_rock, 20.0);
   const Raster ground = raster_between(-half, half, 4.0, gully);
   const Raster thickness = thickness_between(-half, half, 5.0, [](double x, double y) {
     return std::max(0.0, 30.0 * (1.0 - std::pow((x + 50.0) / 60.0, 2) - std::pow(y / 60.0, 2)));
   });
-  return std::make_unique<Simulation<3>>(case_on_dem(text, {"grid.follows_terrain=true", "time.stepping=adaptive"}),
+  return std::make_unique<Simulation<3>>(case_on_dem(slide, "grid.follows_terrain=true; time.stepping=adaptive"),
                                          site_of(ground, thickness));
 }
 

@@ -50,10 +50,10 @@ inline constexpr double channel_cell = 5.0, channel_slope = 35.0, channel_fricti
 using Treatment = std::function<Raster(Raster)>;
 
 // Additional friction of the fill relative to the coefficient of the ground, on average between two times [s], from the
-// velocity of its centre of mass along the thalweg. sets: keys of the case.
+// velocity of its centre of mass along the thalweg.
 inline double friction_in_channel(
     const Channel& channel, const Sets& material, double from, double to,
-    const Treatment& treat = [](Raster ground) { return ground; }, const Sets& sets = {}) {
+    const Treatment& treat = [](Raster ground) { return ground; }) {
   constexpr double degree = pi / 180.0, gravity = 9.81, length = 60.0;
   const double sine = std::sin(channel_slope * degree), cosine = std::cos(channel_slope * degree);
   const Place along(std::cos(channel.azimuth * degree), std::sin(channel.azimuth * degree)), aside(-along[1], along[0]);
@@ -72,7 +72,7 @@ inline double friction_in_channel(
   });
   const Variant slide = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
                                        material, channel_friction);
-  sim::Simulation<3> simulation(case_on_dem(slide + sets), site_of(treat(ground), thickness));
+  sim::Simulation<3> simulation(case_on_dem(slide), site_of(treat(ground), thickness));
   const Position down(along[0] * cosine, along[1] * cosine, -sine);
   run_until(simulation, from);
   const double first = CentreOfMass(simulation).velocity.dot(down), began = simulation.time();

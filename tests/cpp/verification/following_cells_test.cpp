@@ -194,7 +194,7 @@ LinearErrors errors_of_linear_field(const Matrix<double, Dim>& gradient) {
   errors.heat = std::abs(heat - heat_of_particles) / size_of_heat;
   constexpr double dt = 0.01;
   mpm::move_particles(in.grid, in.particles, in.model(), dt, in.nodes);
-  const mpm::MomentumWeights<mpm::Ugimp, Dim> weights{in.model().sizes, in.model().sides};
+  const mpm::MomentumWeights<Dim> weights{in.model().shape, in.model().sizes, in.model().sides};
   in.for_nodes([&](const mpm::NodeAt& at, const Point& position) {
     mpm::set_vector<Dim>(in.nodes.velocity(at), 0, velocity_at(position));
   });
