@@ -211,10 +211,12 @@ def test_every_kernel_of_the_step_is_compiled() -> None:
 def test_emulated_gpu_steps_are_bitwise_identical_to_cpu_steps() -> None:
     """The program compares CPU steps with emulated GPU threads in shuffled order, for each model option."""
     find_nvcc()
-    build = ["cmake", "--build", str(ROOT / "build" / "release"), "--target", "thawslide_device_test"]
-    built = subprocess.run(build, capture_output=True, text=True, timeout=LIMIT, check=False)
-    assert built.returncode == 0, built.stdout[-4000:]
-    program = ROOT / "build" / "release" / "tests" / "thawslide_device_test"
+    folder = ROOT / "build" / "gpu"
+    configure = ["cmake", "--preset", "release", "-B", folder, "-DTHAWSLIDE_CUDA=ON"]
+    for command in (configure, ["cmake", "--build", folder, "--target", "thawslide_device_test"]):
+        built = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=LIMIT, check=False)
+        assert built.returncode == 0, built.stdout[-4000:] + built.stderr[-2000:]
+    program = folder / "tests" / "thawslide_device_test"
     done = subprocess.run([program, "--rehearse"], capture_output=True, text=True, timeout=LIMIT, check=False)
     assert done.returncode == 0, done.stdout
     compared = re.findall(r"(\d+) of (\d+) (?:fields|numbers) have the same bits", done.stdout)
