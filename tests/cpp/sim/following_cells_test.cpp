@@ -37,7 +37,7 @@ std::map<std::string, std::vector<double>> state_after(const Make& make, int ste
     }
     simulation->step(simulation->next_step(100.0));
   }
-  simulation->next_step(100.0);  // locates the particles
+  (void)simulation->next_step(100.0);  // locates the particles
   auto state = state_of(*simulation);
   set_thread_count(threads_before);
   return state;
