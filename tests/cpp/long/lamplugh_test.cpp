@@ -13,7 +13,7 @@ namespace {
 using namespace testing_support;
 
 TEST(WholeLamplugh, RunsOutAndStopsNearWhatWasReported) {
-  Simulation<2> simulation(config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh"));
+  Simulation<2> simulation(config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh"));
   double peak = 0.0, rests_at = 0.0, displacement_at_rest = 0.0;
   while (simulation.time() < 200.0 - 1e-9) {
     run_until(simulation, simulation.time() + 1.0);

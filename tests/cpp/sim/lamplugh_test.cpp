@@ -19,7 +19,7 @@ namespace {
 using namespace testing_support;
 
 config::Case lamplugh(const Sets& sets = {}) {
-  return config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh", sets);
+  return config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh", sets);
 }
 
 // Fast from the start, such that a few seconds include sliding, melting, pressurization and yield.

@@ -8,7 +8,7 @@ namespace thawslide::verification {
 // mechanical_residual_J at `end` relative to the work of gravity and |friction work|.
 inline double incline_residual(const std::string& name, double step, double end) {
   using testing_support::value_of;
-  const std::string file = std::string(THAWSLIDE_SOURCE_DIR) + "/cases/incline/" + name + ".toml";
+  const std::string file = std::string(THAWSLIDE_SOURCE_DIR "/cases/incline/") + name + ".toml";
   Simulation<2> simulation(
       config::read_case(file, {fmt::format("time.step={}", step), fmt::format("time.end={}", end)}));
   const double potential = value_of(sim::history_row(simulation), "potential_J");
