@@ -132,8 +132,8 @@ struct Body {
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
       for (const auto& batch : grid.batches(t)) {
         const auto place = grid_position(grid, particles, batch);
-        work(batch, mpm::make_stencil<mpm::Ugimp>(grid, batch, place, {Simd<double>(0.25), Simd<double>(4.0)},
-                                                  mpm::PrescribedSides<Dim>()));
+        work(batch, mpm::make_stencil(mpm::ShapeFunction::ugimp, grid, batch, place,
+                                      {Simd<double>(0.25), Simd<double>(4.0)}, mpm::PrescribedSides<Dim>()));
       }
     }
   }
