@@ -9,7 +9,6 @@ import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 from conftest import HANG, LAMPLUGH, Program, Ran, assert_bitwise_identical, mark_killed, run_facts, sets
@@ -150,7 +149,7 @@ def test_without_locks_the_state_is_unknown(thawslide: Program, without_locks: d
     )
     assert status.endswith(f"  if nothing writes there any more: thawslide resume {run}\n")
     reported = thawslide.json("status", run, **given)
-    assert reported["state"] == "unknown" and 300 <= reported["last_write_age_s"] < 600
+    assert reported["state"] == "unknown" and 0 <= reported["last_write_age_s"] - 300 <= time.time() - long_ago - 299
     assert thawslide.json("status", run)["state"] == "killed"
 
 
@@ -182,11 +181,13 @@ def test_a_process_of_another_machine_counts_as_running(
 
 
 def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+    run, begin = tmp_path / "run", time.time()
     thawslide.ok("run", small_case, "--output", run)
     assert thawslide.ok("status", run) == f"{run}: done\n  0.2 of 0.2 s simulated\n"
-    ages: dict[str, Any] = dict.fromkeys(("last_write_age_s", "checkpoint_age_s"), pytest.approx(300, abs=300))
-    assert thawslide.json("status", run) == {
+    reported = thawslide.json("status", run)
+    ages = {name: reported[name] for name in ("last_write_age_s", "checkpoint_age_s")}
+    assert all(0 <= age <= time.time() - begin + 1 for age in ages.values())
+    assert reported == {
         "state": "done",
         "message": "",
         "process": "",
