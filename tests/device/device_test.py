@@ -53,7 +53,7 @@ REGISTERS_OF_STEP = {
     "pass, AddMomentum": (40, 40),  # 32, 32
     "pass, AddAffineMomentum": (40, 44),  # 32, 38
     "pass, AddNearGround": (38, 40),  # 30, 32
-    "pass, LowerClearance": (20, 20),  # 17, 18
+    "pass, LowerClearance": (20, 24),  # 17, 22
     "pass, MarkBand": (38, 50),  # 30, 42
     "pass, LeaveBand": (16, 16),  # 8, 8
     "pass, Move": (48, 152),  # 42, 138

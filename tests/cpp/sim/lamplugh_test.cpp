@@ -18,9 +18,7 @@ namespace {
 
 using namespace testing_support;
 
-config::Case lamplugh(const Sets& sets = {}) {
-  return config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh", sets);
-}
+config::Case lamplugh(const Sets& sets = {}) { return config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh", sets); }
 
 // Fast from the start, such that a few seconds include sliding, melting, pressurization and yield.
 const Sets hasty = "body.slide.velocity=[20.0,-22.0]; basal.slip_distance=20.0";
