@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "device/solver.hpp"
+#include "device/solver_factory.hpp"
 
 namespace thawslide::device {
 

@@ -1,15 +1,13 @@
 // Abstract interface of a solver on a device, independent of backend and shape functions.
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <map>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "band/body_sums.hpp"
+#include "device/solver_factory.hpp"
 #include "device/step_model.hpp"
 #include "mpm/front.hpp"
 #include "mpm/monitor_sums.hpp"
@@ -52,10 +50,5 @@ class Solver {
   virtual void time_stages() = 0;
   [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;
 };
-
-// Copies `count` particles to a device and creates the solver there.
-template <int Dim>
-using SolverFactory = std::function<std::unique_ptr<Solver<Dim>>(const StepModel<Dim>&, const mpm::ParticleView<Dim>&,
-                                                                 std::size_t count, HostCallbacks<Dim>)>;
 
 }  // namespace thawslide::device

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "band/basal_segments.hpp"
 #include "base/state_numbers.hpp"
 #include "sim/simulation.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "band/basal_segments.hpp"
 #include "base/rounding.hpp"
 #include "physics/boiling.hpp"
 

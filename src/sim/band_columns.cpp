@@ -1,11 +1,13 @@
 // Band columns of a simulation: initialization and update in a time step.
 
+#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "sim/columns_model.hpp"
 #include "sim/restored_state.hpp"
 #include "sim/simulation.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
 
@@ -75,7 +77,7 @@ void Simulation<Dim>::start_band_columns() {
         fmt::format("{}: the band is up to {} m thick, and the slide above it {} m on average. Use a thinner band.",
                     config::location_of(parameters_, "band.thickness"), thickest, rounded_text(material.depth, 3)));
   }
-  band_columns_.emplace(make_columns_model(parameters_, model_, material), model_.motion.gravity);
+  band_columns_ = std::make_unique<band::BasalSegments<Dim>>(make_columns_model(parameters_, model_, material), model_.motion.gravity);
   column_time_ = 0.0;
 }
 

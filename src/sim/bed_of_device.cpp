@@ -2,6 +2,7 @@
 #include "sim/bed_of_device.hpp"
 
 #include "base/instances.hpp"
+#include "device/solver.hpp"
 #include "device/step_model.hpp"
 #include "sim/simulation.hpp"
 

@@ -1,5 +1,6 @@
 // Sums over the particles of a run: energies, masses, momentum, and sums for the means in the history.
 #include "base/instances.hpp"
+#include "device/solver.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
 

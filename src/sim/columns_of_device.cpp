@@ -1,8 +1,11 @@
 // Band columns of a simulation on a device: the columns are computed on the CPU.
 #include <algorithm>
 
+#include "band/basal_segments.hpp"
 #include "base/instances.hpp"
+#include "device/solver.hpp"
 #include "device/step_model.hpp"
+#include "sim/grid_of_device.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

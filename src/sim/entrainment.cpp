@@ -9,6 +9,7 @@
 #include "base/instances.hpp"
 #include "base/raster_sampling.hpp"
 #include "sim/simulation.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
 
@@ -159,7 +160,7 @@ NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> positi
 template <int Dim>
 const terrain::Bed<Dim>* Simulation<Dim>::bed_to_meet() {
   if (bed_in_reach() != nullptr) {
-    bed_->cover(grid_, ground_, model_.motion.sizes, particles_);
+    bed_->cover(grid_, *ground_, model_.motion.sizes, particles_);
   }
   return bed_in_reach();
 }

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
+#include "device/solver.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "band/basal_segments.hpp"
 #include "sim/direction.hpp"
 
 namespace thawslide::sim {

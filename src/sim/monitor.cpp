@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "device/solver.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
 

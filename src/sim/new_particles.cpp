@@ -1,9 +1,12 @@
 // Particles appended to a run between two steps.
 #include <algorithm>
 
+#include "band/heat.hpp"
+#include "band/pore_pressure.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
+#include "terrain/ground_on_grid.hpp"
 #include "terrain/near_ground.hpp"
 
 namespace thawslide::sim {
@@ -60,7 +63,7 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
     mpm::split_total_stress(particles_, first);
   }
   if (model_.ground) {
-    terrain::set_contact_offset(grid_, ground_, model_.motion, particles_, first);
+    terrain::set_contact_offset(grid_, *ground_, model_.motion, particles_, first);
   }
   if (!model_.contact.band_columns) {
     band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_,

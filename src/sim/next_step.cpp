@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
+#include "device/solver.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -49,7 +50,7 @@ template <int Dim>
 band::StepExtremes Simulation<Dim>::extremes() const {
   const bool are_on_device = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
   if (are_on_device) {
-    return device_sums_.extremes;
+    return device_sums_->extremes;
   }
   locate_particles();
   return extremes_of(model_, particles());

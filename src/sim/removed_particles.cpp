@@ -7,7 +7,9 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "device/solver.hpp"
 #include "sim/simulation.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
 
@@ -110,7 +112,7 @@ void Simulation<Dim>::mark_left_particles() {
     // The tile's own block is the middle one of its stencil, and its ground is checked one cell beyond its edge. After
     // device steps the tiles may be outdated, so all particles are checked.
     const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
-    if (!device_solver_ && !ground_.partly_unknown(own)) {
+    if (!device_solver_ && !ground_->partly_unknown(own)) {
       return;
     }
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {

@@ -5,9 +5,11 @@
 #include <limits>
 #include <numeric>
 
+#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
+#include "device/solver.hpp"
 #include "mpm/sum_over_particles.hpp"
 
 namespace thawslide::sim {

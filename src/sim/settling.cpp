@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"

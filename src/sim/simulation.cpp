@@ -4,18 +4,25 @@
 #include <cmath>
 
 #include "band/averages.hpp"
+#include "band/basal_segments.hpp"
+#include "band/heat.hpp"
+#include "band/pore_pressure.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
+#include "device/solver.hpp"
 #include "mpm/body_contact.hpp"
 #include "mpm/velocity_filter.hpp"
+#include "sim/bed_of_device.hpp"
 #include "sim/bodies.hpp"
 #include "sim/direction.hpp"
 #include "sim/entrainment.hpp"
 #include "sim/filter_times.hpp"
+#include "sim/grid_of_device.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/terrain_at_columns.hpp"
 #include "terrain/band_marks.hpp"
+#include "terrain/ground_on_grid.hpp"
 #include "terrain/map_back.hpp"
 #include "terrain/near_ground.hpp"
 
@@ -118,7 +125,7 @@ void Simulation<Dim>::find_particles_cells() {
 template <int Dim>
 void Simulation<Dim>::update_ground() const {
   if (model_.ground && grid_.blocks_changed()) {
-    ground_.update(*model_.ground, grid_, model_.substrates.get());
+    ground_->update(*model_.ground, grid_, model_.substrates.get());
   }
 }
 
@@ -144,15 +151,15 @@ void Simulation<Dim>::press_on_ground() {
     return;
   }
   if (band_columns_) {
-    terrain::clearance_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+    terrain::clearance_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
     band_columns_->to_nodes(grid_, nodes_);
   } else {
-    terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+    terrain::near_ground_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
   }
-  terrain::press_on_ground(grid_, ground_, model_.constraints, model_.contact, static_cast<Real>(time_), dt_, nodes_);
+  terrain::press_on_ground(grid_, *ground_, model_.constraints, model_.contact, static_cast<Real>(time_), dt_, nodes_);
   if (band_columns_ && terrain::loads_bare_ground(grid_, nodes_)) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
-    terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+    terrain::near_ground_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
   }
 }
 
@@ -170,9 +177,9 @@ void Simulation<Dim>::resolve_contact(const terrain::StrengthLaw* strength) {
   add_contact_energy();
   add_bed_energy();
   if (model_.ground) {
-    terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
+    terrain::mark_band_and_slip(grid_, *ground_, dt_, nodes_, particles_);
   }
-  band_columns_follow(grid_, ground_, nodes_);
+  band_columns_follow(grid_, *ground_, nodes_);
 }
 
 template <int Dim>
@@ -285,6 +292,9 @@ Simulation<Dim>::Simulation(const config::Case& parameters, const config::Site& 
       site_(site),
       model_(make_model<Dim>(parameters, site)),
       grid_(make_grid(parameters, model_)),
+      ground_(std::make_unique<terrain::GroundOnGrid<Dim>>()),
+      device_sums_(std::make_unique<device::StepSums<Dim>>()),
+      map_sample_(std::make_unique<device::MapSample>()),
       bed_(make_bed<Dim>(parameters, site, model_)) {
   if (model_.between_bodies.any()) {
     body_contact_ = std::make_unique<mpm::BodyContact<Dim>>();
@@ -319,7 +329,7 @@ void Simulation<Dim>::begin() {
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
-    terrain::set_contact_offset(grid_, ground_, model_.motion, particles_);
+    terrain::set_contact_offset(grid_, *ground_, model_.motion, particles_);
   }
   mark_band();
   if (!model_.contact.band_columns) {
@@ -359,7 +369,7 @@ template <int Dim>
 void Simulation<Dim>::mark_band() {
   terrain::start_contact(grid_, ground(), nodes_);
   if (model_.ground) {
-    terrain::mark_band_and_slip(grid_, ground_, Real(0), nodes_, particles_);
+    terrain::mark_band_and_slip(grid_, *ground_, Real(0), nodes_, particles_);
   }
 }
 

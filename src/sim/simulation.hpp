@@ -7,30 +7,36 @@
 #include <string>
 #include <vector>
 
-#include "band/basal_segments.hpp"
 #include "band/body_sums.hpp"
-#include "band/heat.hpp"
-#include "band/pore_pressure.hpp"
+#include "band/flow_depth.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "config/case.hpp"
-#include "device/solver.hpp"
+#include "device/solver_factory.hpp"
 #include "mpm/front.hpp"
 #include "mpm/motion.hpp"
-#include "sim/bed_of_device.hpp"
 #include "sim/budget.hpp"
-#include "sim/grid_of_device.hpp"
 #include "sim/model.hpp"
 #include "sim/monitor.hpp"
 #include "sim/time_step.hpp"
-#include "terrain/ground_on_grid.hpp"
 
+// Declared only, so that users of a simulation do not compile them.
 namespace thawslide::mpm {
 template <int Dim>
 class BodyContact;
+struct MapCells;
 }  // namespace thawslide::mpm
-
+namespace thawslide::band {
+template <int Dim>
+class BasalSegments;
+struct HeatGain;
+}  // namespace thawslide::band
 namespace thawslide::sim {
+
+template <int Dim>
+struct GridOfDevice;
+template <int Dim>
+struct BedOfDevice;
 
 // Particle that joins a run; properties not listed here are those at t = 0.
 template <int Dim>
@@ -145,13 +151,11 @@ class Simulation {
     return nodes_;
   }
   // Null without terrain.
-  [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const { return model_.ground ? &ground_ : nullptr; }
+  [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const { return model_.ground ? ground_.get() : nullptr; }
   [[nodiscard]] const Budget<Dim>& budget() const { return budget_; }
   [[nodiscard]] const terrain::ContactWork<Dim>& contact() const { return contact_; }
   // Null unless the band consists of columns.
-  [[nodiscard]] const band::BasalSegments<Dim>* band_columns() const {
-    return band_columns_ ? &*band_columns_ : nullptr;
-  }
+  [[nodiscard]] const band::BasalSegments<Dim>* band_columns() const { return band_columns_.get(); }
   void restore_band_columns(const std::vector<double>& state);
   // Null without an erodible bed.
   [[nodiscard]] const terrain::Bed<Dim>* bed() const { return bed_ ? &*bed_ : nullptr; }
@@ -269,18 +273,18 @@ class Simulation {
   // With a device, these are copies of the last synchronization, which does not change the logical state.
   mutable mpm::Particles<Dim> particles_;
   mutable mpm::SparseGrid<Dim> grid_;
-  mutable terrain::GroundOnGrid<Dim> ground_;
+  std::unique_ptr<terrain::GroundOnGrid<Dim>> ground_;
   mpm::Nodes<Dim> nodes_;
   device::SolverFactory<Dim> make_solver_;  // empty: steps on the CPU
   // Null if particles have changed on the host since, or the device has failed.
   mutable std::unique_ptr<device::Solver<Dim>> device_solver_;
-  device::StepSums<Dim> device_sums_;  // of its last step
+  std::unique_ptr<device::StepSums<Dim>> device_sums_;  // of its last step
   terrain::ContactWork<Dim> contact_;
   Budget<Dim> budget_, budget_before_;    // current, and before the step
-  mutable device::MapSample map_sample_;  // of the last step
+  std::unique_ptr<device::MapSample> map_sample_;       // of the last step
   std::string device_name_;
   band::FlowDepth<Dim> flow_depth_;
-  std::optional<band::BasalSegments<Dim>> band_columns_;
+  std::unique_ptr<band::BasalSegments<Dim>> band_columns_;  // null unless the band consists of columns
   std::unique_ptr<GridOfDevice<Dim>> grid_of_device_;  // as band columns read it; null without band columns
   std::optional<terrain::Bed<Dim>> bed_;
   std::unique_ptr<BedOfDevice<Dim>> bed_of_device_;      // null without a bed below a device step

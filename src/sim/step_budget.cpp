@@ -1,4 +1,5 @@
 // Budget terms of a step, on the CPU or on a device.
+#include "band/heat.hpp"
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
 

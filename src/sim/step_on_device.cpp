@@ -1,10 +1,14 @@
 // Steps on a device (src/device), and synchronization of its particles.
 #include <algorithm>
 
+#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
+#include "device/solver.hpp"
+#include "sim/bed_of_device.hpp"
 #include "sim/device_model.hpp"
+#include "sim/grid_of_device.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -52,8 +56,8 @@ device::StepSums<Dim> Simulation<Dim>::step_on_device() {
 
 template <int Dim>
 void Simulation<Dim>::advance_on_device() {
-  on_device([&] { device_sums_ = step_on_device(); });
-  const device::StepSums<Dim>& sums = device_sums_;
+  on_device([&] { *device_sums_ = step_on_device(); });
+  const device::StepSums<Dim>& sums = *device_sums_;
   if (parameters_.mechanics.enabled) {
     contact_ = sums.contact;
     add_contact_energy();
@@ -82,7 +86,7 @@ bool Simulation<Dim>::needs_no_host_check() const {
     return false;
   }
   std::vector<Vector<Real, Dim>> escapes;
-  if (device_sums_.escapes > 0) {
+  if (device_sums_->escapes > 0) {
     on_device([&] { escapes = device_solver_->escaped_positions(); });
   }
   return !any_has_left(escapes);
@@ -128,8 +132,8 @@ const device::MapSample* Simulation<Dim>::sample_map(const mpm::MapCells& cells)
   if (!device_solver_) {
     return nullptr;
   }
-  on_device([&] { device_solver_->sample_map(cells, map_sample_); });
-  return &map_sample_;
+  on_device([&] { device_solver_->sample_map(cells, *map_sample_); });
+  return map_sample_.get();
 }
 
 template <int Dim>

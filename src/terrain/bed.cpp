@@ -5,6 +5,7 @@
 
 #include "base/instances.hpp"
 #include "base/state_numbers.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
 

@@ -11,9 +11,11 @@
 #include "mpm/body_sizes.hpp"
 #include "mpm/nodes.hpp"
 #include "terrain/bed_node.hpp"
-#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
+
+template <int Dim>
+class GroundOnGrid;
 
 // Entrained bed material that has not yet joined the sliding mass as a particle.
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "base/instances.hpp"
 #include "terrain/base_pressure.hpp"
 #include "terrain/contact_node.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
 

@@ -9,10 +9,12 @@
 #include "terrain/basal_law.hpp"
 #include "terrain/bed.hpp"
 #include "terrain/contact_work.hpp"
-#include "terrain/ground_on_grid.hpp"
 #include "terrain/strength_law.hpp"
 
 namespace thawslide::terrain {
+
+template <int Dim>
+class GroundOnGrid;
 
 template <int Dim>
 struct ContactModel {

@@ -3,6 +3,7 @@
 #include "base/instances.hpp"
 #include "mpm/node_pass.hpp"
 #include "terrain/contact_node.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
 

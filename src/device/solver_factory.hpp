@@ -1,0 +1,34 @@
+// Factory of solvers on a device, and the types of their interface, declared only: users of a simulation do not compile
+// them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace thawslide::mpm {
+template <int Dim>
+struct ParticleView;
+}  // namespace thawslide::mpm
+
+namespace thawslide::device {
+
+template <int Dim>
+class Solver;
+template <int Dim>
+struct StepModel;
+template <int Dim>
+struct StepSums;
+template <int Dim>
+struct HostBed;
+template <int Dim>
+struct HostCallbacks;
+struct HostColumns;
+struct MapSample;
+
+// Copies `count` particles to a device and creates the solver there.
+template <int Dim>
+using SolverFactory = std::function<std::unique_ptr<Solver<Dim>>(const StepModel<Dim>&, const mpm::ParticleView<Dim>&,
+                                                                 std::size_t count, HostCallbacks<Dim>)>;
+
+}  // namespace thawslide::device
