@@ -26,7 +26,6 @@ def interrupts() -> Iterator[None]:
 
 @pytest.fixture
 def command_line(tmp_path: Path) -> CommandLine:
-    """Return a function that runs `thawslide` with arguments in an empty folder."""
     program = os.environ.get("THAWSLIDE_BINARY", str(ROOT / "build" / "release" / "thawslide"))
 
     def start(*arguments: object) -> subprocess.CompletedProcess[str]:

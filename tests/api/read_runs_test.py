@@ -6,28 +6,25 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import CommandLine
+from conftest import ROOT, CommandLine
 
 import thawslide
 from thawslide import Case, NotInRunError, ReportError, Run, UserError
+
+VALLEY = ROOT / "cases" / "valley3d"
 
 
 @pytest.fixture(scope="module")
 def map_run(tmp_path_factory: pytest.TempPathFactory) -> Run:
     folder = tmp_path_factory.mktemp("map") / "run"
-    case = Case(thawslide_cases() / "valley3d", {"time.end": 0.4, "time.output_interval": 0.2, "grid.cell": 40.0})
+    case = Case(VALLEY, {"time.end": 0.4, "time.output_interval": 0.2, "grid.cell": 40.0})
     return thawslide.run(case, folder, threads=1, progress=False)
-
-
-def thawslide_cases() -> Path:
-    return Path(__file__).resolve().parents[2] / "cases"
 
 
 def test_a_2d_run_has_a_table_and_no_maps(slope: Path, tmp_path: Path) -> None:
     run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
-    pd.testing.assert_frame_equal(
-        run.history.to_pandas(), pd.read_csv(run.folder / "history.csv").astype(float), check_exact=True
-    )
+    expected = pd.read_csv(run.folder / "history.csv").astype(float)
+    pd.testing.assert_frame_equal(run.history.to_pandas(), expected, check_exact=True)
     shot = run.snapshot(-1)
     assert shot.time == pytest.approx(1.0) and shot.points.shape == (len(shot["mass"]), 3)
     assert shot.unit("temperature") == "C"
@@ -88,8 +85,7 @@ def test_a_report_of_two_runs_compares_them(slope: Path, tmp_path: Path) -> None
 
 
 def test_a_new_case_is_that_of_the_command_line(tmp_path: Path, command_line: CommandLine) -> None:
-    valley = thawslide_cases() / "valley3d"
-    files = {"dem": valley / "valley.tif", "release": valley / "release.geojson"}
+    files = {"dem": VALLEY / "valley.tif", "release": VALLEY / "release.geojson"}
     lines: list[str] = []
     case = thawslide.new_case(
         **files, folder=tmp_path / "python", thickness=12.0, cell=20.0, cut=True, on_message=lines.append

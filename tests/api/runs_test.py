@@ -116,9 +116,7 @@ def test_an_exception_of_on_message_leaves_a_simulation_usable(slope: Path) -> N
     assert simulation.time == pytest.approx(0.1)
 
 
-def test_runs_and_resumes_end_within_half_a_step(
-    slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_runs_and_resume_end_within_half_a_step(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     case = Case(slope, {"time.step": 0.003, "time.end": 0.199, "time.history_interval": 0.0})
     run = thawslide.run(case, tmp_path / "run", threads=1, progress=False)
     simulation = thawslide.Simulation(case, threads=1)

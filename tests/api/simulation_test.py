@@ -28,9 +28,7 @@ def assert_identical(found: pd.DataFrame, expected: pd.DataFrame) -> None:
 
 
 @pytest.mark.parametrize("stepping", ["fixed", "adaptive"])
-def test_history_is_that_of_the_command_line(
-    slope: Path, tmp_path: Path, command_line: CommandLine, stepping: str
-) -> None:
+def test_history_is_that_of_the_command(slope: Path, tmp_path: Path, command_line: CommandLine, stepping: str) -> None:
     done = command_line("run", slope, "--output", tmp_path / "run", "--set", f"time.stepping={stepping}")
     assert done.returncode == 0, done.stderr
     simulation = Simulation(Case(slope, {"time.stepping": stepping}), threads=2, on_message=silent)
@@ -155,9 +153,7 @@ def test_a_callback_is_called_at_intervals_and_may_stop(slope: Path) -> None:
     ("key", "value", "text"),
     [("basal.frction_angle", 10.0, "10.0"), ("basal.friction_angle", 100.0, "100.0"), ("grid.cell", "big", '"big"')],
 )
-def test_a_wrong_key_has_its_message(
-    slope: Path, command_line: CommandLine, key: str, value: object, text: str
-) -> None:
+def test_wrong_key_has_its_message(slope: Path, command_line: CommandLine, key: str, value: object, text: str) -> None:
     with pytest.raises(UserError) as error:
         Case(slope, {key: value})
     assert command_line("check", slope, "--set", f"{key}={text}").stderr == f"error: {error.value}\n"

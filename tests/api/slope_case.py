@@ -9,12 +9,8 @@ terrain = {{ type = "profile", file = "profile.csv" }}
 basal = {{ friction = "{friction}", friction_angle = 10.0 }}
 band = {{ thickness = 0.1 }}
 
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 1.0e8
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 1.0e5
+[material]
+rock = {{ law = "mohr_coulomb", youngs_modulus = 1.0e8, poisson_ratio = 0.2, friction_angle = 35.0, cohesion = 1.0e5 }}
 
 [body.block]
 material = "rock"

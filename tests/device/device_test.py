@@ -89,7 +89,6 @@ REGISTERS_OF_STEP = {
 
 
 def find_nvcc() -> str:
-    """Return nvcc's path, or skip the test."""
     cuda_home = os.environ.get("CUDA_HOME", "/usr/local/cuda")
     nvcc = shutil.which("nvcc") or shutil.which("nvcc", path=f"{cuda_home}/bin")
     if not nvcc:
@@ -118,13 +117,11 @@ def compiled(nvcc: str, source: Path, folder: Path) -> str:
 
 
 def short_name(demangled: str) -> str:
-    """Return a kernel's name and template arguments, without result, parameters and namespaces."""
     name = re.sub(r"thawslide::(?:physics::|mpm::|band::|terrain::)?", "", demangled.removeprefix("void "))
     return name.replace("> >", ">>").split("(")[0]
 
 
 def resources(reported: str) -> dict[str, tuple[int, int]]:
-    """Return registers and spilled bytes of each kernel."""
     found = {}
     for part in reported.split("Compiling entry function '")[1:]:
         spilled = [int(number) for number in re.findall(r"(\d+) bytes spill", part)]
@@ -135,14 +132,12 @@ def resources(reported: str) -> dict[str, tuple[int, int]]:
 
 
 def expect_within(limits: dict[str, int], used: dict[str, tuple[int, int]]) -> None:
-    """Fail unless the kernels are these, without spills and within their registers."""
     assert set(used) == set(limits)
     assert {kernel: spilled for kernel, (_, spilled) in used.items() if spilled > 0} == {}
     assert {kernel: number for kernel, (number, _) in used.items() if number > limits[kernel]} == {}
 
 
 def basal_laws() -> list[str]:
-    """Return the kernels of the basal laws in their list."""
     listed = re.findall(r"using (Friction|Cohesion)Law = std::variant<(.*?)>;", BASAL_LAWS.read_text(), flags=re.DOTALL)
     assert len(listed) == 2
     return [f"{kind.lower()}_law<basal::{law}>" for kind, laws in listed for law in re.findall(r"\w+", laws)]

@@ -34,7 +34,6 @@ TOLERANCE = 1e-6
 
 @pytest.fixture(scope="session")
 def on_gpu() -> Path:
-    """Return the program, built if necessary."""
     if os.environ.get("THAWSLIDE_ON_GPU"):
         return ON_CPU
     command = ["cmake", "--build", str(BUILD), "--target", "thawslide_rehearsal"]

@@ -34,7 +34,6 @@ def binary() -> Path:
 
 @pytest.fixture(scope="session")
 def environment(binary: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """Return an environment with an empty profile and without a window."""
     home = tmp_path_factory.mktemp("home")
     home.chmod(0o700)
     own = {"HOME": home, "QGIS_CUSTOM_CONFIG_PATH": home / "qgis", "XDG_RUNTIME_DIR": home}
@@ -53,7 +52,6 @@ def zip_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def plugin(environment: dict[str, str], zip_file: Path) -> None:
-    """Install the ZIP file as QGIS does, and enable the plugin."""
     subprocess.run([PYTHON, SCRIPTS / "install_plugin.py", zip_file], env=environment, check=True, timeout=LIMIT)
     subprocess.run([QGIS_PROCESS, "plugins", "enable", "thawslide_qgis"], env=environment, check=True, timeout=LIMIT)
 
@@ -63,11 +61,7 @@ def algorithm(environment: dict[str, str], plugin: None) -> Algorithm:
     """Return a function that runs an algorithm with parameters by `qgis_process`, and checks its exit code."""
 
     def run(
-        name: str,
-        *options: str,
-        code: int | None = 0,
-        environment_too: dict[str, str] | None = None,
-        **parameters: object,
+        name: str, *options: str, code: int | None = 0, environment_too: Any = None, **parameters: object
     ) -> Outcome:
         words = [f"{key}={value}" for key, value in parameters.items()]
         command = [QGIS_PROCESS, "run", f"thawslide:{name}", *options, "--", *words]
@@ -103,7 +97,6 @@ def slope(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def case(algorithm: Algorithm, slope: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the case file that 'New case' makes."""
     folder = tmp_path_factory.mktemp("cases") / "slope"
     algorithm("newcase", DEM=slope / "dem.tif", RELEASE=slope / "release.geojson", THICKNESS=24, OUTPUT=folder)
     return folder / "case.toml"

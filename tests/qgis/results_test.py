@@ -9,13 +9,12 @@ import pytest
 import rasterio
 from conftest import ROOT, Algorithm, Outcome, Script
 
+Project = tuple[list[dict[str, Any]], Path, Path]
 OUTLINES = ["front", "path", "affected_area", "deposit_area", "release_area"]
 
 
 @pytest.fixture(scope="module")
-def project(
-    finished: tuple[Path, Outcome], script: Script, tmp_path_factory: pytest.TempPathFactory
-) -> tuple[list[dict[str, Any]], Path, Path]:
+def project(finished: tuple[Path, Outcome], script: Script, tmp_path_factory: pytest.TempPathFactory) -> Project:
     """Return the layers of the saved project, its picture, and the run."""
     run = finished[0]
     folder = tmp_path_factory.mktemp("project")
@@ -25,7 +24,7 @@ def project(
     return read["groups"]["slope"], folder / "map.png", run
 
 
-def test_group_contains_maps_and_styled_outlines(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
+def test_group_contains_maps_and_styled_outlines(project: Project) -> None:
     layers, _, run = project
     maps = sorted(path.stem for path in (run / "maps").glob("*.tif"))
     assert [layer["name"] for layer in layers] == [*OUTLINES, *(name for name in maps if name != "terrain"), "terrain"]
@@ -37,7 +36,7 @@ def test_group_contains_maps_and_styled_outlines(project: tuple[list[dict[str, A
     assert (styles["path"]["renderer"], styles["terrain"]["renderer"]) == ("singleSymbol", "hillshade")
 
 
-def test_maps_have_the_colours_of_their_style_files(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
+def test_maps_have_the_colours_of_their_style_files(project: Project) -> None:
     layers, _, run = project
     compared = 0
     for layer in (layer for layer in layers if (run / "maps" / f"{layer['name']}.qml").is_file()):
@@ -50,7 +49,7 @@ def test_maps_have_the_colours_of_their_style_files(project: tuple[list[dict[str
     assert compared >= 10
 
 
-def test_picture_shows_the_release_on_the_terrain(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
+def test_picture_shows_the_release_on_the_terrain(project: Project) -> None:
     with rasterio.open(project[1]) as file:
         red, green, blue = (file.read(band).astype(int) for band in (1, 2, 3))
     is_coloured = abs(red - green) + abs(green - blue) > 30
@@ -58,9 +57,7 @@ def test_picture_shows_the_release_on_the_terrain(project: tuple[list[dict[str, 
     assert (~is_coloured & (red < 250)).mean() > 0.5
 
 
-def test_a_run_without_maps_is_refused(
-    algorithm: Algorithm, project: tuple[list[dict[str, Any]], Path, Path], binary: Path, tmp_path: Path
-) -> None:
+def test_a_run_without_maps_is_refused(algorithm: Algorithm, project: Project, binary: Path, tmp_path: Path) -> None:
     case = ROOT / "cases" / "incline" / "D.toml"
     command = [binary, "run", case, "--output", tmp_path / "run", "--threads", "1", "--set", "time.end=0.01"]
     subprocess.run(command, check=True, capture_output=True)

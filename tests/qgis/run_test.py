@@ -25,9 +25,7 @@ def test_run_writes_its_folder_and_shows_progress(finished: tuple[Path, Outcome]
         ("time.end", "error: --set time.end"),
     ],
 )
-def test_wrong_setting_has_its_message(
-    algorithm: Algorithm, case: Path, tmp_path: Path, settings: str, message: str
-) -> None:
+def test_wrong_settings_fail(algorithm: Algorithm, case: Path, tmp_path: Path, settings: str, message: str) -> None:
     assert message in algorithm("runcase", CASE=case, OUTPUT=tmp_path / "run", SETTINGS=settings, code=1).stderr
     assert not (tmp_path / "run" / "run.json").exists()
 
@@ -51,9 +49,7 @@ def test_temporary_folders_and_missing_runs_are_refused(algorithm: Algorithm, ca
     assert f"error: {tmp_path} is not a run folder" in algorithm("resumerun", RUN=tmp_path, code=1).stderr
 
 
-def test_cancelled_run_has_a_checkpoint_to_resume(
-    algorithm: Algorithm, script: Script, case: Path, tmp_path: Path
-) -> None:
+def test_cancelled_run_can_be_resumed(algorithm: Algorithm, script: Script, case: Path, tmp_path: Path) -> None:
     folder = tmp_path / "run"
     cancelled = script("cancel_run.py", case, folder)
     assert state_of(folder)["status"] == "stopped"

@@ -14,7 +14,6 @@ from slope_case import write_slope_case  # noqa: E402
 
 @pytest.fixture
 def with_program(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a sweep find the program that the tests use."""
     program = ROOT / os.environ.get("THAWSLIDE_BINARY", "build/release/thawslide")
     if not program.is_file():
         pytest.skip(f"program not found: {program}. Build it, or set THAWSLIDE_BINARY.")

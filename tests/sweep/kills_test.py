@@ -44,7 +44,6 @@ def is_running(folder: SweepFolder, driver: int) -> bool:
 
 
 def done_starts(folder: SweepFolder) -> dict[int, int]:
-    """Return the numbers of starts of the members that are done."""
     records = {number: folder.record(number) for number in range(MEMBERS)}
     return {number: record["starts"] for number, record in records.items() if record["status"] == DONE}
 

@@ -5,21 +5,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import rasterio
+from probability_test import CELL, read, write
 
 from thawslide.sweeps.command import main
 from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.probability_command import main as probability
 
-CELL, COLUMNS, ROWS = 10.0, 24, 16
-
-
-def write(path: Path, values: np.ndarray) -> None:
-    with rasterio.open(
-        path, "w", driver="GTiff", dtype="float64", count=1, width=COLUMNS, height=ROWS, crs="EPSG:32608",
-        nodata=-9999.0, transform=rasterio.Affine(CELL, 0.0, 400000.0, 0.0, -CELL, 6500000.0 + ROWS * CELL),
-    ) as file:  # fmt: skip
-        file.write(values, 1)
+COLUMNS, ROWS, NORTH = 24, 16, 6_500_160.0
 
 
 @pytest.fixture
@@ -28,10 +20,10 @@ def plane(tmp_path: Path) -> Path:
     folder = tmp_path / "plane"
     folder.mkdir()
     x = (np.arange(COLUMNS) + 0.5) * CELL
-    write(folder / "dem.tif", np.tile(200.0 - 0.6 * x, (ROWS, 1)))
+    write(folder / "dem.tif", np.tile(200.0 - 0.6 * x, (ROWS, 1)), 400_000.0, NORTH)
     thickness = np.zeros((ROWS, COLUMNS))
     thickness[5:11, 4:9] = 20.0
-    write(folder / "thickness.tif", thickness)
+    write(folder / "thickness.tif", thickness, 400_000.0, NORTH)
     (folder / "case.toml").write_text(
         """case = { dimension = 3 }
 time = { end = 0.5, step = 0.01, output_interval = 0.5, history_interval = 0.1 }
@@ -52,11 +44,6 @@ porosity = 0.3
 """
     )
     return folder
-
-
-def read(path: Path) -> np.ndarray:
-    with rasterio.open(path) as file:
-        return np.ma.filled(file.read(1, masked=True), np.nan)
 
 
 def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -83,14 +70,11 @@ def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capf
     assert capfd.readouterr().err.endswith("maps of 4 members\n")
     SweepFolder(sweep).write_record(3, {"status": "running", "starts": 1})
     assert probability([str(sweep), "--output", str(tmp_path / "three")]) == 0
-    assert capfd.readouterr().err.endswith(
-        "maps of 3 members; not finished: 1. To continue, repeat the command of the sweep.\n"
-    )
+    words = "maps of 3 members; not finished: 1. To continue, repeat the command of the sweep.\n"
+    assert capfd.readouterr().err.endswith(words)
 
 
-def test_maps_that_are_not_kept_are_removed_last(
-    plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_maps_that_are_not_kept_are_removed(plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     sweep = tmp_path / "sweep"
     command = [str(plane), "--vary", "basal.friction_angle=5,25", "--output", str(sweep), "--keep", "none"]
     assert main(command) == 0

@@ -32,7 +32,6 @@ def read(path: Path) -> Numbers:
 
 @pytest.fixture
 def ensemble(tmp_path: Path) -> tuple[list[Path], dict[str, Numbers]]:
-    """Return folders of 37 members with maps of 70 x 90 cells, and the values of all."""
     random = np.random.default_rng(3)
     thickness = random.gamma(0.5, 2.0, (37, 70, 90))
     thickness[random.random(thickness.shape) < 0.5] = np.nan
@@ -73,9 +72,7 @@ def test_maps_have_styles_and_thresholds(ensemble: tuple[list[Path], dict[str, N
     assert "speed_above_5" not in names
 
 
-def test_map_of_reached_cells_has_its_threshold(
-    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
-) -> None:
+def test_map_of_reached_cells_has_a_threshold(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
     folders, _ = ensemble
     words = "probability of being reached: thickness above"
 
@@ -94,10 +91,8 @@ def test_map_of_reached_cells_has_its_threshold(
 
 
 def test_extents_can_differ_by_whole_cells_only(tmp_path: Path) -> None:
-    files = [
-        write(tmp_path / "a.tif", np.array([[1.0, 2.0]])),
-        write(tmp_path / "b.tif", np.array([[3.0, 4.0]]), west=CELL),
-    ]
+    values = {"a": [[1.0, 2.0]], "b": [[3.0, 4.0]]}
+    files = [write(tmp_path / f"{k}.tif", np.array(values[k]), west=west) for k, west in (("a", 0.0), ("b", CELL))]
     assert main([*map(str, files), "--output", str(tmp_path / "out"), "--thickness", "1.5"]) == 0
     assert np.array_equal(read(tmp_path / "out" / "thickness_above_1.5.tif"), [[0.0, 1.0, 0.5]])
     first = write(tmp_path / "first.tif", np.ones((2, 2)))

@@ -54,9 +54,7 @@ def test_finished_members_are_not_repeated(slope: Path, tmp_path: Path, capfd: p
     assert "contains another sweep (different: design)" in capfd.readouterr().err
 
 
-def test_a_changed_case_or_input_is_another_sweep(
-    slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_changed_input_is_another_sweep(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     command = [str(slope), "--block", "--vary", "basal.friction_angle=20,30", "--output", str(tmp_path / "sweep")]
     assert main(command) == 0
     profile = slope.parent / "profile.csv"
