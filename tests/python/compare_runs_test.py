@@ -17,7 +17,6 @@ from thawslide.pages.comparison import case_rows, make_comparison, names_of, num
 
 @pytest.fixture
 def two_runs(make_run: MakeRun) -> list[Run]:
-    """Return two 2D runs; the second has twice the displacement and another cell."""
     second = make_run(name="second", history={"mean_displacement_m": 16.0 * np.linspace(0.0, 10.0, 101)})
     edit(second / "case.toml", "cell = 2.0", "cell = 4.0")
     return [Run(make_run(name="first")), Run(second)]
@@ -33,9 +32,8 @@ def test_key_numbers_and_different_keys_of_the_cases_are_rows(two_runs: list[Run
 
 def test_different_input_files_are_rows(two_runs: list[Run]) -> None:
     for run, digit in zip(two_runs, "ab", strict=True):
-        update_facts(
-            run.folder, inputs=[{"path": f"x/{name}", "sha256": digit * 64} for name in ("dem.tif", "case.toml")]
-        )
+        inputs = [{"path": f"x/{name}", "sha256": digit * 64} for name in ("dem.tif", "case.toml")]
+        update_facts(run.folder, inputs=inputs)
     rows = case_rows(names_of([Run(run.folder) for run in two_runs]))
     assert rows[-1] == ["SHA-256 of dem.tif", f"{'a' * 16}...", f"{'b' * 16}..."]
 
@@ -59,9 +57,7 @@ def test_maps_have_one_scale(map_run: Path, tmp_path: Path) -> None:
     assert maps[0].get_xlim() == maps[1].get_xlim()
 
 
-def test_command_writes_into_the_first_run(
-    two_runs: list[Run], capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_command_writes_to_first_run(two_runs: list[Run], capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     folders = [str(run.folder) for run in two_runs]
     assert main([*folders, "--dpi", "50"]) == 0
     path = two_runs[0].folder / "comparison.html"

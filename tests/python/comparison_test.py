@@ -78,9 +78,8 @@ def test_numbers_of_a_known_outcome_are_exact() -> None:
     speed[18:23, 96:201] = 10.0
     speed[20, 150], speed[20, 205] = 30.0, 99.0
     final[18:23, 190:201] = 3.0
-    outcome = results.Outcome(
-        "X", *(Map(terrain.grid, each) for each in (thickness, speed, final)), 7, 60.0, 1e3, 0.0, 1.0
-    )
+    maps = (Map(terrain.grid, each) for each in (thickness, speed, final))
+    outcome = results.Outcome("X", *maps, 7, 60.0, 1e3, 0.0, 1.0)
     found = results.numbers(outcome, terrain, square(502.5))
     assert (found.area, found.max_speed) == (25.0 * 5 * 105, 30.0)
     assert (found.usual_speed, found.max_thickness) == (10.0, 2.0)

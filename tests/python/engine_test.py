@@ -3,6 +3,7 @@
 import json
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -51,14 +52,9 @@ def lines() -> list[str]:
 
 @pytest.fixture
 def place(tmp_path: Path, lines: list[str]) -> Place:
-    """Return a place with a case and a program that writes the files of a run at once."""
     (tmp_path / "case.toml").write_text("# one")
     program = write_program(tmp_path / "program")
     return Place(program, tmp_path / "runs", tmp_path / "pages", cases=tmp_path, report=lines.append)
-
-
-def with_program(place: Place, program: Path) -> Place:
-    return Place(program, place.runs, place.pages, cases=place.cases, report=place.report)
 
 
 JOBS = (Job("a"), Job("b", sets=("x=1",)), Job("block", subcommand="block"))
@@ -92,7 +88,7 @@ def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
     elif change == "settings":
         job = Job("a", sets=("x=1",))
     elif change == "commit":
-        place = with_program(place, write_program(place.program.with_name("newer"), "4567"))
+        place = replace(place, program=write_program(place.program.with_name("newer"), "4567"))
     elif change == "results":
         (place.runs / "a").rename(place.runs / "moved")
     else:
@@ -103,12 +99,12 @@ def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
 def test_runs_of_the_same_commit_by_a_program_elsewhere_are_repeated_only_if_its_tree_had_changes(place: Place) -> None:
     assert engine.commit_of(place.program) == place.version == "0123abcd"
     dirty = write_program(place.program, "0123abcd-dirty")
-    changed = with_program(place, dirty)
+    changed = replace(place, program=dirty)
     assert len(changed.version) == 64
     changed.perform([Job("a")])
     assert engine.is_current(changed.task(Job("a")))
     dirty.write_text(dirty.read_text() + "# changed\n")
-    assert not engine.is_current(with_program(place, dirty).task(Job("a")))
+    assert not engine.is_current(replace(place, program=dirty).task(Job("a")))
 
 
 def test_missing_program_or_version_has_its_remedy(place: Place, capsys: pytest.CaptureFixture[str]) -> None:
@@ -128,9 +124,7 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
     assert engine.log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
     # A run that failed keeps its results and is not repeated; one without results is.
     assert engine.is_current(place.task(jobs[2])) and not engine.is_current(place.task(jobs[1]))
-    tolerant = Place(
-        place.program, place.runs, place.pages, cases=place.cases, report=lines.append, tolerates_failures=True
-    )
+    tolerant = replace(place, tolerates_failures=True)
     assert [each.partition(":")[0] for each in tolerant.perform(jobs)] == ["bad", "broken"]
 
 
@@ -156,9 +150,7 @@ def test_expensive_runs_start_first_and_names_are_unique(place: Place, lines: li
 
 
 def test_parts_select_runs(place: Place) -> None:
-    chosen = Place(
-        place.program, place.runs, place.pages, cases=place.cases, report=place.report, parts=("plane-*", "alr")
-    )
+    chosen = replace(place, parts=("plane-*", "alr"))
     chosen.perform([Job("plane-20"), Job("plane-10"), Job("alr"), Job("alr-rough")])
     assert sorted(path.name for path in place.runs.iterdir() if path.is_dir()) == ["alr", "plane-10", "plane-20"]
 
@@ -180,7 +172,6 @@ def stage_of(place: Place) -> list[Job]:
 
 @pytest.fixture
 def studies(place: Place, monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Replace the studies by small ones; return the list to which they add their names."""
     done: list[str] = []
     small = (
         made("staged", done, stages=(lambda place: [Job("first")], stage_of), cases=place.cases),
@@ -198,9 +189,7 @@ def call(place: Place, *words: str) -> int:
     return command.main([*words, "--program", str(place.program), "--output", str(place.runs), "--quick"])
 
 
-def test_studies_are_made_although_some_fail(
-    place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_studies_are_made_if_some_fail(place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert call(place) == 1
     assert studies == ["staged", "wrong", "last"]
     output = capsys.readouterr().out

@@ -44,7 +44,6 @@ def texts(axes: Axes) -> list[str]:
 
 
 def legend_notes(axes: Axes) -> list[str]:
-    """Return the notes in a legend on reported values that are not shown."""
     legend = axes.get_legend()
     assert legend is not None
     found = [text.get_text().replace("\n", " ") for text in legend.get_texts()]
@@ -52,9 +51,8 @@ def legend_notes(axes: Axes) -> list[str]:
 
 
 def particles(axes: Axes) -> PolyCollection:
-    (found,) = [
-        c for c in axes.collections if isinstance(c, PolyCollection) and not isinstance(c, FillBetweenPolyCollection)
-    ]
+    polygons = [each for each in axes.collections if isinstance(each, PolyCollection)]
+    (found,) = [each for each in polygons if not isinstance(each, FillBetweenPolyCollection)]
     return found
 
 
@@ -120,11 +118,16 @@ def test_block_on_a_tilted_plane_is_drawn_once(make_run: MakeRun) -> None:
     assert not found & {"height above\nterrain (m)", "elevation (m)"}
 
 
-def test_strips_have_heights_and_the_overview_the_range_of_each_panel(make_run: MakeRun) -> None:
+def test_strips_have_heights_and_exaggeration_and_the_overview_the_range_of_each_panel(make_run: MakeRun) -> None:
     figure = FIGURES["velocity"].plot(Run(make_run()))
     strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
     np.testing.assert_allclose(np.unique(np.round(centres(strips[1])[:, 1], 9)), [0.5, 1.5, 2.5, 3.5])
+    for axes in strips:
+        width, height = figure.get_size_inches() * axes.get_position().size
+        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+        times = (right - left) / width / ((high - low) / height)
+        assert texts(axes) == [f"vertical exaggeration {times:.2g}×"]
     overview = titled(figure, "whole profile")
     title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
     assert overview.get_title(loc="left") == title

@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, page_of, write_history
+from figures_test import line
 from matplotlib.collections import FillBetweenPolyCollection
-from matplotlib.figure import Figure
+from wrong_tables import FORCE_RANGE, FORCES, WRONG_FORCES
 
 from thawslide import NotInRunError, ReportError, Run
 from thawslide.band_pass import response
@@ -18,8 +19,6 @@ from thawslide.report_page import make_report
 from thawslide.targets import Band
 
 ROOT = Path(__file__).resolve().parents[2]
-HEADER = "time_s,up_N,north_N,east_N\n"
-RANGE = HEADER.rstrip() + ",up_low_N,up_high_N,north_low_N,north_high_N,east_low_N,east_high_N\n"
 BAND = Band(10.0, 200.0)
 AZIMUTH = 30.0  # of the records made here
 
@@ -42,7 +41,7 @@ def write_record(folder: Path, *, lag: float = 7.0, size: float = 0.5, keys: str
     angle = np.radians(AZIMUTH)
     rows = zip(time, up, along * np.cos(angle), along * np.sin(angle), strict=True)
     (folder / "inputs" / "force.csv").write_text(
-        HEADER + "".join(",".join(repr(float(each)) for each in row) + "\n" for row in rows)
+        FORCES + "".join(",".join(repr(float(each)) for each in row) + "\n" for row in rows)
     )
     case = folder / "case.toml"
     case.write_text(
@@ -69,18 +68,12 @@ def write_long_run(folder: Path, towards: float = 1.0) -> None:
     write_history(folder / "history.csv", columns)
 
 
-def line(figure: Figure, panel: int, label: str) -> np.ndarray:
-    (found,) = [line for line in figure.axes[panel].lines if line.get_label() == label]
-    return np.array(found.get_data(), dtype=float)
-
-
 def test_curves_of_equal_forces_coincide(folder: Path) -> None:
-    """The record is half of the force of the run, at shifted times and in another direction."""
     run = Run(folder)
     figure = FIGURES["force_record"].plot(run)
     for panel in (0, 1):
-        time, values = line(figure, panel, "run")
-        record_time, reference = line(figure, panel, "A survey, time shifted by +7.0 s")
+        time, values = line(figure.axes[panel], "run")
+        record_time, reference = line(figure.axes[panel], "A survey, time shifted by +7.0 s")
         assert record_time[0] == pytest.approx(-13.0, abs=0.01) and record_time[-1] == pytest.approx(127.0, abs=0.26)
         inside = time <= record_time[-1]
         difference = np.interp(time[inside], record_time, reference) - 0.5 * values[inside]
@@ -104,10 +97,10 @@ def test_curves_are_the_filtered_history(folder: Path) -> None:
     figure = FIGURES["force_record"].plot(run)
     time = run.history["time_s"]
     for panel, axis in ((0, "y"), (1, "x")):
-        curve_time, curve = line(figure, panel, "run")
+        curve_time, curve = line(figure.axes[panel], "run")
         expected = filtered(time, run.history[f"seismic_force_{axis}_N"], curve_time, BAND)
         np.testing.assert_allclose(1e9 * curve, expected, atol=1e-6 * np.abs(expected).max())
-        assert curve_time[0] >= 0.0 > line(figure, panel, "filter response before the run")[0].max()
+        assert curve_time[0] >= 0.0 > line(figure.axes[panel], "filter response before the run")[0].max()
 
 
 def test_motion_towards_minus_x_is_forward(folder: Path) -> None:
@@ -122,7 +115,7 @@ def test_range_surrounds_the_record(folder: Path) -> None:
     rows = (
         f"{t},{u},{-u},0,{u - 1e9},{u + 2e9},{-u - 3e9},{-u + 4e9},-5e9,6e9\n" for t, u in zip(time, up, strict=True)
     )
-    (folder / "inputs" / "force.csv").write_text(RANGE + "".join(rows))
+    (folder / "inputs" / "force.csv").write_text(FORCE_RANGE + "".join(rows))
     run = Run(folder)
     figure = FIGURES["force_record"].plot(run)
     assert np.radians(compared(run).azimuth) == pytest.approx(0.0)
@@ -130,7 +123,7 @@ def test_range_surrounds_the_record(folder: Path) -> None:
         axes = figure.axes[panel]
         (band,) = [found for found in axes.collections if isinstance(found, FillBetweenPolyCollection)]
         (label,) = [label for found in axes.lines if "A survey" in (label := str(found.get_label()))]
-        at, best = line(figure, panel, label)
+        at, best = line(figure.axes[panel], label)
         corners = band.get_paths()[0].vertices
         for middle in (10, len(at) // 2, len(at) - 10):
             heights = corners[np.abs(corners[:, 0] - at[middle]) < 1e-6, 1]
@@ -214,13 +207,13 @@ def test_times_without_a_reversal_are_not_aligned(folder: Path) -> None:
     assert (found.is_aligned, found.shift) == (False, 0.0)
     words = "Times are not aligned, because one of the vertical forces does not reverse."
     assert words in FIGURES["force_record"].caption_of(run)
-    assert line(FIGURES["force_record"].plot(run), 0, "A survey, times not aligned")[0][0] == -20.0
+    assert line(FIGURES["force_record"].plot(run).axes[0], "A survey, times not aligned")[0][0] == -20.0
 
 
 def test_run_before_the_record_is_plotted(folder: Path) -> None:
     columns = {name: values[:3] for name, values in history_columns(2001, 2).items()}
     write_history(folder / "history.csv", columns | {"time_s": np.array([-90.0, -80.0, -70.0])})
-    assert not line(FIGURES["force_record"].plot(Run(folder)), 0, "filter response before the run").size
+    assert not line(FIGURES["force_record"].plot(Run(folder)).axes[0], "filter response before the run").size
 
 
 def test_caption_has_the_difference_of_two_inversions(folder: Path) -> None:
@@ -278,35 +271,7 @@ def test_figure_requires_a_record_and_a_width(make_run: MakeRun) -> None:
     assert report.missing["force_record"] == reason and not report.faults
 
 
-ALL = "up_low_N, up_high_N, north_low_N, north_high_N, east_low_N, east_high_N"
-TOO_FEW = "too few rows (found {}; allowed: 2 or more). Add the history."
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("", ": empty; expected the columns time_s, up_N, north_N, east_N"),
-        ("time_s,up_N,north_N\n", ":1: no column east_N; found 'time_s', 'up_N', 'north_N'"),
-        (HEADER, f": {TOO_FEW.format(0)}"),
-        (HEADER + "0,0,0,0\n", f": {TOO_FEW.format(1)}"),
-        (HEADER + "0,0,x,0\n1,0,0,0\n", ":2: expected a number, found 'x'"),
-        (HEADER + "0,0,inf,0\n1,0,0,0\n", ":2: expected a finite number, found 'inf'"),
-        (HEADER + "0,0,0\n1,0,0,0\n", ":2: 3 values for 4 columns"),
-        (
-            HEADER + "0,0,0,0\n1,0,0,0\n1.0,0,0,0\n",
-            ":4: time_s does not rise (found 1.0 after 1; allowed: more than that). Sort the rows by time.",
-        ),
-        (
-            HEADER.rstrip() + ",up_low_N\n0,0,0,0,0\n1,0,0,0,0\n",
-            f":1: the range is not complete (found no {ALL.removeprefix('up_low_N, ')}; allowed: all of {ALL}, or "
-            "none). Add what is missing.",
-        ),
-        (
-            RANGE + "0,0,0,0,-1,1,-1,1,-1,1\n1,0,2,0,-1,1,-1,1,-1,1\n",
-            ":3: north_N is outside its range (found 2; allowed: -1 to 1). Correct one of the three.",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), WRONG_FORCES)
 def test_invalid_record_is_an_error(tmp_path: Path, text: str, message: str) -> None:
     (tmp_path / "force.csv").write_text(text)
     with pytest.raises(ReportError) as error:
@@ -318,7 +283,7 @@ def test_keys_of_the_case_are_checked(make_run: MakeRun) -> None:
     made = make_run()
     case = made / "case.toml"
     text = case.read_text() + 'force_record = "inputs/force.csv"\n'
-    (made / "inputs" / "force.csv").write_text(HEADER + "0,0,0,0\n1,0,0,0\n")
+    (made / "inputs" / "force.csv").write_text(FORCES + "0,0,0,0\n1,0,0,0\n")
     invalid = "invalid value (found {}; allowed two numbers above 0, the smaller one first)"
     for keys, message in (
         ("", "missing for report.force_record. Add the periods of its waves [s]."),

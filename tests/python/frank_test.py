@@ -75,9 +75,7 @@ def test_maps_are_on_the_grid_of_the_file_of_the_other_code(tmp_path: Path) -> N
         (25, 1.02, 1538, 2147, 2210),
     ],
 )
-def test_results_of_shaltop_are_those_of_their_source(
-    angle: int, area: float, x: float, y: float, farthest: float
-) -> None:
+def test_results_of_shaltop_are_as_published(angle: int, area: float, x: float, y: float, farthest: float) -> None:
     if not DATA.is_dir():
         pytest.skip("the Frank slide (frank/) is not in ../shared/data")
     terrain, pile = (frank.read_grid(DATA / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))

@@ -36,12 +36,9 @@ def test_points_and_polygons_with_holes_are_read() -> None:
     assert len(geometry_parts(HEAD + struct.pack("<BII", 1, 6, 3) + 3 * polygon)) == 6
 
 
-def test_heights_are_ignored_in_either_byte_order() -> None:
+def test_heights_are_ignored_in_either_byte_order_and_no_geometry_has_no_parts() -> None:
     line = struct.pack(">BI", 0, 1002) + points([[1.0, 2.0, 800.0], [3.0, 4.0, 900.0]], ">")
     np.testing.assert_array_equal(geometry_parts(HEAD + line)[0], [[1.0, 2.0], [3.0, 4.0]])
-
-
-def test_no_geometry_has_no_parts() -> None:
     assert geometry_parts(None) == []
 
 

@@ -167,9 +167,8 @@ def test_title_is_no_template_and_a_failed_write_keeps_the_file(make_run: MakeRu
 def test_ticks_of_powers_are_formulas(map_run: Path, make_run: MakeRun) -> None:
     figure = FIGURES["energy"].plot(Run(make_run()))
     figure.draw_without_rendering()
-    powers = [
-        text for axes in figure.axes if axes.get_yscale() == "log" for text in axes.get_yticklabels() if text.get_text()
-    ]
+    logarithmic = [axes for axes in figure.axes if axes.get_yscale() == "log"]
+    powers = [text for axes in logarithmic for text in axes.get_yticklabels() if text.get_text()]
     assert powers
     assert all(text.get_parse_math() for text in powers)
     assert plotted("extent_maps", map_run) is not None

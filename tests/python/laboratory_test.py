@@ -10,7 +10,7 @@ from reproduction.study import Place
 from reproduction.tables import rewrapped
 
 
-def test_windows_contain_the_whole_volume() -> None:
+def test_windows_contain_the_whole_volume_and_are_half_as_wide_at_the_wall() -> None:
     rng = np.random.default_rng(3)
     x, volume = rng.uniform(0.1, 2.0, 200), rng.uniform(0.0, 1.0, 200)
     window = 0.125
@@ -18,9 +18,6 @@ def test_windows_contain_the_whole_volume() -> None:
     found = laboratory.thickness(x, volume, at, window, 0.07)
     assert float(found.sum() * window) == pytest.approx(float(volume.sum()), rel=1e-12)
     assert np.all(found[at > 2.2] == 0.0)
-
-
-def test_window_at_the_wall_is_half_as_wide() -> None:
     x, volume = np.arange(0.005, 1.0, 0.01), np.full(100, 0.01 * 3.0)
     assert laboratory.thickness(x, volume, np.array([0.0, 0.5]), 0.2, 0.01) == pytest.approx([3.0, 3.0])
 
@@ -37,12 +34,9 @@ def test_failure_line_of_a_linear_field_is_exact(slope: float) -> None:
     assert found == pytest.approx(0.05 + slope * (places - 0.05) + 0.01, abs=1e-4)
 
 
-def test_failure_line_of_material_at_rest_is_its_top() -> None:
+def test_failure_line_of_material_at_rest_is_its_top_and_measured_lines_are_complete() -> None:
     start = np.array([[0.05, 0.01], [0.05, 0.03], [0.05, 0.05]])
     assert laboratory.failure_line(start, np.zeros(3), np.array([0.05]), 0.001, 0.02) == [laboratory.BAR_HEIGHT]
-
-
-def test_measured_lines_are_complete() -> None:
     x, height = laboratory.read_points(laboratory.MEASURED / "surface.csv")
     assert (len(x), x[-1], height[-1]) == (23, 0.442348498, 0.001519511)
     x, height = laboratory.read_points(laboratory.MEASURED / "failure.csv")

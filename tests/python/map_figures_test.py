@@ -4,23 +4,11 @@ import struct
 from pathlib import Path
 
 import imageio_ffmpeg
+import map_runs
 import numpy as np
 import pytest
 from conftest import Fails, edit, page_of, update_facts
-from map_runs import (
-    SOUTH,
-    SPEED,
-    THICKNESS,
-    WEST,
-    centres,
-    field,
-    labels,
-    maps_of,
-    notes,
-    plotted,
-    write_layer,
-    write_map,
-)
+from map_runs import SOUTH, SPEED, THICKNESS, WEST, centres, field, labels, maps_of, notes, plotted, write_map
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, ReportError, Run
@@ -43,14 +31,13 @@ ON_MAP = [
     ("name", "label", "value"),
     [
         (
-            "slide_speed",
-            "depth-averaged speed (m/s), 4 s mean; at 0 s: instantaneous; at 10 s: mean of the last 2 s",
+            "slide_speed", "depth-averaged speed (m/s), 4 s mean; at 0 s: instantaneous; at 10 s: mean of the last 2 s",
             SPEED * np.hypot(1.0, 0.4),
         ),
         ("slide_thickness", "flow thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),
         ("slide_temperature", "basal temperature (°C)", 10.0),
     ],
-)
+)  # fmt: skip
 def test_maps_at_report_times_have_values_of_particles(map_run: Path, name: str, label: str, value: float) -> None:
     figure = plotted(name, map_run)
     panels = maps_of(figure)
@@ -183,7 +170,6 @@ def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None
 
 
 def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
-    """Rows, titles, notes and the page have the time and no word of a deposit."""
     warning = "the slide is not at rest at 10 s (mean velocity 20 m/s)."
     update_facts(map_run, at_rest=False, rest_since_s=None, simulated_time_s=10.0, warnings=[warning])
     run = Run(map_run)
@@ -204,7 +190,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
 def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     ring = np.array([[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [0.0, 0.0]])
     blob = b"GP\0\1" + struct.pack("<i", 31287) + struct.pack("<BIII", 1, 3, 1, len(ring)) + ring.tobytes()
-    write_layer(map_run / "maps" / "results.gpkg", "affected_area", [blob])
+    map_runs.write_layer(map_run / "maps" / "results.gpkg", "affected_area", [blob])
     site = make_site(Run(map_run))
     assert site.affected is not None and len(site.affected) == 1
     np.testing.assert_array_equal(site.affected[0], ring)

@@ -21,7 +21,7 @@ COLUMNS, ROWS = 60, 30
 LENGTH, WIDTH, THICKNESS = 80.0, 60.0, 6.0  # of the slab [m]
 SPEED = 20.0  # m/s to the east
 MIDDLE = SOUTH + 150.0
-MADE_UP = "EPSG:31287"
+CRS = "EPSG:31287"
 
 
 def ground(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -42,12 +42,7 @@ def slab(x: np.ndarray, y: np.ndarray, time: float) -> np.ndarray:
 
 
 def write_map(
-    path: Path,
-    values: np.ndarray,
-    unit: str = "m",
-    description: str = "",
-    cell: float = CELL,
-    crs: str | None = MADE_UP,
+    path: Path, values: np.ndarray, unit: str = "m", description: str = "", cell: float = CELL, crs: str | None = CRS
 ) -> None:
     """Write a GeoTIFF as the simulator does; nan becomes nodata, rows go from south to north."""
     rows, columns = values.shape
@@ -112,10 +107,9 @@ def write_particles(path: Path, time: float) -> None:
         grid.ravel()
         for grid in np.meshgrid(
             WEST + 62.5 + SPEED * time + 5.0 * np.arange(LENGTH / 5.0),
-            MIDDLE - 0.5 * WIDTH + 2.5 + 5.0 * np.arange(WIDTH / 5.0),
-            1.0 + 2.0 * np.arange(THICKNESS / 2.0),
+            MIDDLE - 0.5 * WIDTH + 2.5 + 5.0 * np.arange(WIDTH / 5.0), 1.0 + 2.0 * np.arange(THICKNESS / 2.0),
         )
-    )
+    )  # fmt: skip
     count = len(x)
     velocity = np.zeros((count, 3))
     velocity[:, 0], velocity[:, 2] = 0.6 * SPEED, 0.8 * SPEED

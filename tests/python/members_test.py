@@ -23,13 +23,10 @@ GOOD = Observed(
 )  # fmt: skip
 ACCEPTED = {each.name: each for each in members.QUANTITIES}
 CASE = {
-    "material": {"rock_ice": {"hydraulic_conductivity": 1e-7}},
-    "substrate": {"glacier": {"friction_coefficient": 0.1}},
-    "basal": {"slip_distance": 20.0},
-    "band": {"thickness": 0.55, "load_time": 1.0, "growth": "none"},
-    "pressure": {"frozen_rows": "vented", "skeleton_compressibility": 2e-9},
-    "heat": {"steam": True},
-}
+    "material": {"rock_ice": {"hydraulic_conductivity": 1e-7}}, "substrate": {"glacier": {"friction_coefficient": 0.1}},
+    "basal": {"slip_distance": 20.0}, "band": {"thickness": 0.55, "load_time": 1.0, "growth": "none"},
+    "pressure": {"frozen_rows": "vented", "skeleton_compressibility": 2e-9}, "heat": {"steam": True},
+}  # fmt: skip
 
 
 def changed(**values: float | str) -> Observed:

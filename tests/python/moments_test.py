@@ -99,17 +99,6 @@ def test_maps_have_velocities_of_displacement(map_run: Path) -> None:
     np.testing.assert_allclose(painted_values(shot, "velocity"), expected)
 
 
-def test_strips_state_their_vertical_exaggeration(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].plot(Run(make_run()))
-    strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
-    assert len(strips) == 3
-    for axes in strips:
-        width, height = figure.get_size_inches() * axes.get_position().size
-        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-        times = (right - left) / width / ((high - low) / height)
-        assert [text.get_text() for text in axes.texts] == [f"vertical exaggeration {times:.2g}×"]
-
-
 def test_thin_margins_have_a_separate_colour(map_run: Path) -> None:
     figure = FIGURES["slide_thickness"].plot(Run(map_run))
     image = next(axes.images[-1] for axes in figure.axes if len(axes.images) > 1)

@@ -18,7 +18,6 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def names_in(list_name: str) -> set[str]:
-    """Return the names in a list of src/io/run_files.cpp."""
     text = (ROOT / "src" / "io" / "run_files.cpp").read_text()
     found = re.search(rf"\b{list_name}\[\] = {{(.*?)}};", text, re.DOTALL)
     assert found

@@ -4,39 +4,27 @@ import dataclasses
 import tomllib
 from pathlib import Path
 
+from reproduction import numerics
 from reproduction.members import Observed
-from reproduction.numerics import (
-    CELL,
-    CELLS,
-    DOMAIN,
-    STEP_PER_CELL,
-    cell_key,
-    cell_rows,
-    cells_table,
-    numerics_rows,
-    numerics_table,
-    variant_cell_rows,
-    variant_cells_table,
-)
 from reproduction.study import Job
 
 
 def test_rows_scale_the_step_and_shift_the_domain() -> None:
-    rows = {row.key: row.sets for row in cell_rows()}
+    rows = {row.key: row.sets for row in numerics.cell_rows()}
     assert len(rows) == 9
     assert rows["e-0.21-cell-5"] == ("band.thickness=0.21", "grid.cell=5", "time.step=0.005")
     assert next(iter(rows)).endswith("cell-5"), "the long runs first"
-    shifted = {row.key: row.sets for row in numerics_rows()}
+    shifted = {row.key: row.sets for row in numerics.numerics_rows()}
     assert shifted["quarter-shift"] == ("grid.min=[-202.5,197.5]", "grid.max=[13997.5,2397.5]")
 
 
 def test_table_of_cells_has_the_difference_of_the_finer_two() -> None:
     found = {
         row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0, dilation=15.0)
-        for row in cell_rows()
+        for row in numerics.cell_rows()
     }
-    found[cell_key(0.4, CELLS[-1])] = Observed(failure="not run")
-    lines = cells_table(found).splitlines()
+    found[numerics.cell_key(0.4, numerics.CELLS[-1])] = Observed(failure="not run")
+    lines = numerics.cells_table(found).splitlines()
     assert lines[0] == "| e [m] | quantity | 20 m | 10 m | 5 m | finer two differ by |"
     assert lines[2] == "| 0.21 | mean displacement [km] | 4.00 | 4.00 | 5.00 | 25.0 % |"
     assert lines[5] == "| 0.21 | growth of the volume [%] | 15.0 | 15.0 | 15.0 | |"
@@ -45,12 +33,12 @@ def test_table_of_cells_has_the_difference_of_the_finer_two() -> None:
 
 def test_table_of_numerics_has_differences_from_the_case() -> None:
     base = Observed(peak=80.0, displacement=5.0, runout=9.0)
-    rows = numerics_rows()[:2]
+    rows = numerics.numerics_rows()[:2]
     found = {
         rows[0].key: dataclasses.replace(base, displacement=4.9, runout=9.27),
         rows[1].key: Observed(failure="broke off at 3 s"),
     }
-    lines = numerics_table(rows, base, found).splitlines()
+    lines = numerics.numerics_table(rows, base, found).splitlines()
     assert lines[0] == "| run | runout [km] | peak [m/s] | mean displacement [km] | set |"
     assert lines[2] == "| half the time step | 9.3 (+3.0 %) | 80.0 (+0.0 %) | 4.90 (−2.0 %) | `time.step=0.005` |"
     assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"
@@ -58,14 +46,14 @@ def test_table_of_numerics_has_differences_from_the_case() -> None:
 
 def test_variants_run_on_the_other_cells() -> None:
     thin, thick = Job("thin", "a thin band", ("band.thickness=0.15",)), Job("thick", "a thick band")
-    rows = {row.key: row.sets for row in variant_cell_rows([thin, thick])}
+    rows = {row.key: row.sets for row in numerics.variant_cell_rows([thin, thick])}
     assert list(rows) == ["thin-on-5", "thick-on-5", "thin-on-20", "thick-on-20"], "the long runs first"
     assert rows["thin-on-20"] == ("band.thickness=0.15", "grid.cell=20", "time.step=0.02")
     every = Observed(displacement=5.5, runout=8.1, peak=70.0, reversal=20.0, stop=190.0, hottest=150.0)
     found = dict.fromkeys(rows, every)
     found |= {each.key: dataclasses.replace(every, displacement=5.0) for each in (thin, thick)}
     found["thick-on-5"] = Observed(failure="not run")
-    lines = variant_cells_table([thin, thick], found).splitlines()
+    lines = numerics.variant_cells_table([thin, thick], found).splitlines()
     of_thin, of_thick = (line.split(" | ") for line in lines[2:])
     assert of_thin[:3] == ["| a thin band", "5.50 / 5.00 / 5.50", "8.1 / 8.1 / 8.1"]
     assert of_thick[:2] == ["| a thick band", "5.50 / 5.00 / none"]
@@ -76,9 +64,9 @@ def test_rows_have_the_multiples_in_their_names() -> None:
     path = Path(__file__).resolve().parents[2] / "cases" / "lamplugh-columns" / "case.toml"
     case = tomllib.loads(path.read_text(encoding="utf-8"))
     rock = case["material"]["rock_ice"]
-    assert (case["grid"]["cell"], case["time"]["step"]) == (CELL, STEP_PER_CELL * CELL)
-    assert (*case["grid"]["min"], *case["grid"]["max"]) == (DOMAIN[0], DOMAIN[2], DOMAIN[1], DOMAIN[3])
-    rows = {row.key: dict(each.split("=") for each in row.sets) for row in numerics_rows()}
+    assert (case["grid"]["cell"], case["time"]["step"]) == (numerics.CELL, numerics.STEP_PER_CELL * numerics.CELL)
+    assert (*case["grid"]["min"], *case["grid"]["max"]) == tuple(numerics.DOMAIN[k] for k in (0, 2, 1, 3))
+    rows = {row.key: dict(each.split("=") for each in row.sets) for row in numerics.numerics_rows()}
     factors = {
         "half-modulus": (0.5, 1.0, 1.0), "twice-modulus": (2.0, 1.0, 1.0), "soft": (0.5, 2.0, 1.0),
         "softest": (0.25, 4.0, 1.0), "stiff": (2.0, 0.5, 1.0), "half-viscosity": (1.0, 0.5, 1.0),

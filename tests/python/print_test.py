@@ -21,7 +21,6 @@ SMALLEST = 6.0  # points
 
 
 def check(figure: Figure) -> None:
-    """Check that a figure is not wider than a page and has readable type and ordered letters."""
     assert 4.0 <= figure.get_size_inches()[0] <= COLUMN_WIDTH
     figure.draw_without_rendering()
     small = {

@@ -32,7 +32,6 @@ def element(page: str, name: str) -> str:
 
 
 def view_of(folder: Path) -> tuple[dict[str, Any], str]:
-    """Return parts and packed arrays of the interactive view of a run."""
     page = page_of(folder)
     return json.loads(element(page, "view-parts")), element(page, "view-data")
 

@@ -97,9 +97,7 @@ dem.tif {ELLIPSOID},depth=5 --picture a.pdf -> --picture: a.pdf: unknown format 
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_mistakes_are_refused(
-    case: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_refusals(case: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     words, message = case.split(" -> ")
     monkeypatch.chdir(folder)
     before = {path: path.read_bytes() for path in folder.iterdir()}

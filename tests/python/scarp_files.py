@@ -15,15 +15,9 @@ Ring = list[list[float]]
 
 
 def write_dem(
-    path: Path,
-    shape: Shape,
-    cell: float = 10.0,
-    size: float = 1000.0,
-    cell_y: float | None = None,
-    crs: str | None = CRS,
-    no_data: tuple[int, int] | None = None,
-    unit: str = "m",
-) -> Path:
+    path: Path, shape: Shape, cell: float = 10.0, size: float = 1000.0, cell_y: float | None = None,
+    crs: str | None = CRS, no_data: tuple[int, int] | None = None, unit: str = "m",
+) -> Path:  # fmt: skip
     """Write a square DEM: heights over x and y from its centre [m], and one cell (row, column) without data."""
     cell_y = cell_y or cell
     columns, rows = round(size / cell), round(size / cell_y)

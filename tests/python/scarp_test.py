@@ -144,10 +144,8 @@ def test_formats_of_outlines_give_equal_cells(tmp_path: Path) -> None:
         [list(point) for point in zip(*transform("EPSG:32608", "EPSG:4326", *zip(*ring, strict=True)), strict=True)]
         for ring in (outline, hole)
     ]
-    files = [
-        write_outline(tmp_path / "b.geojson", *degrees, crs=None),
-        write_shapefile(tmp_path / "c.shp", outline, hole),
-    ]
+    shapefile = write_shapefile(tmp_path / "c.shp", outline, hole)
+    files = [write_outline(tmp_path / "b.geojson", *degrees, crs=None), shapefile]
     assert main([str(dem), f"--plane=x={X},y={Y},dip=0,direction=0,depth=20", "--within", str(files[1]),
                  "--output", str(tmp_path / "d.tif")]) == 0  # fmt: skip
     for within in [*files, tmp_path / "d.gpkg"]:

@@ -26,17 +26,14 @@ Write = Callable[[Any], Path]
 def section(**changes: Any) -> dict[str, Any]:
     x, z = np.meshgrid(np.arange(0.05, 1.0, 0.1), np.arange(0.05, 0.5, 0.1))
     return {
-        "title": "Block",
-        "cell": 0.2,
-        "min": [-1.0, -0.4],
-        "max": [6.0, 2.0],
+        "title": "Block", "cell": 0.2, "min": [-1.0, -0.4], "max": [6.0, 2.0],
         "boundary": {"x_min": "roller", "x_max": "roller", "y_min": "fixed", "y_max": "open"},
         "terrain": {"x": [-1.0, 6.0], "z": [0.0, 0.0]},
         "bodies": [
             {"name": "block", "material": "ice", "points": np.stack([x.ravel(), z.ravel()], 1).tolist(), "spacing": 0.1}
         ],
         "frames": [{"name": "pusher", "min": [-0.3, 0.0], "max": [0.0, 0.6], "axis": "x", "velocity": 2.0}],
-    } | changes
+    } | changes  # fmt: skip
 
 
 def grid_form(values: np.ndarray) -> dict[str, Any]:
@@ -54,16 +51,12 @@ def on_map(**changes: Any) -> dict[str, Any]:
     outline = (np.array(corners) + np.array([WEST, MIDDLE])).tolist()
     body = {"name": "slab", "material": "ice", "outlines": [outline], "volume_m3": 28800.0}
     return {
-        "title": "Slab",
-        "crs": "EPSG:31287",
-        "cell": 10.0,
-        "min": [WEST + 20.0, SOUTH + 20.0],
-        "max": [WEST + 580.0, SOUTH + 280.0],
-        "terrain": grid_form(heights),
+        "title": "Slab", "crs": "EPSG:31287", "cell": 10.0, "min": [WEST + 20.0, SOUTH + 20.0],
+        "max": [WEST + 580.0, SOUTH + 280.0], "terrain": grid_form(heights),
         "bodies": [body | {"thickness": grid_form(slab(x, y, 0.0))}],
         "path": [[WEST + 30.0, MIDDLE], [WEST + 500.0, MIDDLE]],
         "probes": {"gate": [[WEST + 300.0, MIDDLE]], "weir": [[WEST + 400.0, SOUTH + 50.0], [WEST + 400.0, MIDDLE]]},
-    } | changes
+    } | changes  # fmt: skip
 
 
 @pytest.fixture
@@ -172,7 +165,6 @@ def test_both_maps_have_domain_release_path_and_probes(write: Write) -> None:
 
 
 def test_common_cells_of_bodies_are_painted_once() -> None:
-    """Their value is the sum; other cells and maps with other grids are unchanged."""
     west = Map(Grid(0.0, 0.0, 10.0, 10.0, 3, 2), np.array([[4.0, 4.0, 2.0], [4.0, 4.0, 2.0]]))
     east = Map(Grid(20.0, 10.0, 10.0, 10.0, 2, 2), np.array([[1.0, 3.0], [1.0, 3.0]]))
     coarse = Map(Grid(0.0, 0.0, 20.0, 20.0, 1, 1), np.array([[7.0]]))

@@ -16,7 +16,6 @@ from thawslide.run_facts import LOCK, Ending, is_held
 
 
 def test_figures_of_a_stopped_run_have_its_last_time(map_run: Path) -> None:
-    """The last state is added to earlier report times of the case."""
     update_facts(map_run, status="stopped", simulated_time_s=9.51)
     with (map_run / "case.toml").open("a") as case:
         case.write("[time]\nend = 60.0\n[report]\ntimes = [0.0, 2.0]\n")
@@ -39,12 +38,11 @@ def test_figures_of_a_stopped_run_have_its_last_time(map_run: Path) -> None:
         ({"status": "done", "simulated_time_s": 10.0}, "", "10 s"),
         ({"status": "failed", "simulated_time_s": 10.4087}, "The run failed at 10.4 s. ", "10.4 s (failed)"),
         (
-            {"status": "running", "simulated_time_s": 0},
-            "The run terminated unexpectedly at 10 s. ",
+            {"status": "running", "simulated_time_s": 0}, "The run terminated unexpectedly at 10 s. ",
             "10 s (terminated?)",
         ),
     ],
-)
+)  # fmt: skip
 def test_notes_state_the_ending(map_run: Path, facts: dict[str, object], note: str, state: str) -> None:
     write_facts(map_run, **facts)
     run = Run(map_run)

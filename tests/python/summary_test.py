@@ -52,8 +52,10 @@ def test_classes_numbers_and_arrivals_are_those_of_the_run(map_run: Path) -> Non
     assert arrival_rows(Run(map_run)) == [("gate", "5 s", "6 m")]
 
 
-def test_summary_has_two_pages_and_loads_nothing(map_run: Path) -> None:
-    page, document = make_summary(Run(map_run), dpi=50)
+def test_summary_has_two_pages_loads_nothing_and_is_the_same_for_the_same_run(map_run: Path, tmp_path: Path) -> None:
+    first, second = (make_summary(Run(map_run), tmp_path / name, dpi=50) for name in ("a", "b"))
+    assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
+    page, document = first
     text = page.read_text(encoding="utf-8")
     assert len(re.findall(rb"/Type /Page\b", document.read_bytes())) == 2
     assert not re.search(r"https?://|<script", text)
@@ -61,11 +63,6 @@ def test_summary_has_two_pages_and_loads_nothing(map_run: Path) -> None:
     assert len(sources) == 2
     assert all(source.startswith("data:image/png;base64,") for source in sources)
     assert '<th scope="row">maximum speed</th><td>72 km/h</td>' in text and "This is one scenario." in text
-
-
-def test_summary_is_the_same_for_the_same_run(map_run: Path, tmp_path: Path) -> None:
-    first, second = (make_summary(Run(map_run), tmp_path / name, dpi=50) for name in ("a", "b"))
-    assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
 
 
 def test_command_writes_the_summary(map_run: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

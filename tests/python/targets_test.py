@@ -5,14 +5,13 @@ from pathlib import Path
 
 import pytest
 from conftest import MakeRun, edit, page_of, update_facts
+from wrong_tables import HEADER, WRONG_TARGETS
 
 from thawslide import ReportError, Run
 from thawslide.figures import FIGURES
 from thawslide.key_numbers import found_for
 from thawslide.report_page import make_report
 from thawslide.targets import QUANTITIES, Target, read_targets
-
-HEADER = "quantity,time_s,value,unit,source\n"
 
 
 def read(tmp_path: Path, text: str | bytes) -> list[Target]:
@@ -75,64 +74,7 @@ def test_line_ends_marks_and_spaces_are_ignored(tmp_path: Path, text: bytes) -> 
     assert (target.quantity, target.time, target.value, target.source) == ("mean_displacement", 5.0, 600.0, "Müller")
 
 
-ROWS = HEADER + "mean_velocity,4,8,m/s,x\n"
-KINDS = "quantity,time_s,value,unit,kind\n"
-ALLOWED_KINDS = "for mean_velocity; allowed: observation, model, assumption"
-NO_TIME = "give one column of times, time_s, time_min, time_h; "
-# Contents, and words of the message.
-INVALID = [
-    (b"", ": empty; expected the columns quantity, value, unit"),
-    (b"# only this\n", ": empty; expected the columns quantity, value, unit"),
-    ("quantity,time_s,value\na,1,2\n", ":1: no column unit; found 'quantity', 'time_s', 'value'"),
-    ("quantity;unit\na;m\n", "found 'quantity;unit'. Columns are parted by commas: write , in place of ;"),
-    ("quantity,value,unit\nmean_velocity,1,m/s\n", f":1: {NO_TIME}found none"),
-    ("quantity,time_s,time_h,value,unit\n", f":1: {NO_TIME}"),
-    (
-        "quantity,time_s,value,unit,sorce\n",
-        ":1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, ",
-    ),
-    ("quantity,time_s,value,unit,unit\n", ":1: two columns 'unit'"),
-    (HEADER + "qqq,4,8,m/s,x\n", ":2: no quantity is called 'qqq'. There are: "),
-    ("# x\n" + HEADER + "mean_displacement,4,8,ft,x\n", ":3: the unit 'ft' for mean_displacement; allowed: m, km, cm"),
-    (HEADER + "mean_velocity,4,8\n", ":2: 3 values for 5 columns"),
-    (
-        ROWS + "mean_velocity,4,9,m/s,x\n",
-        ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
-    ),
-    (KINDS + "mean_velocity,4,8,m/s,guess\n", f":2: the kind 'guess' {ALLOWED_KINDS}"),
-    (KINDS + "mean_velocity,4,8,m/s,\n", f":2: no kind {ALLOWED_KINDS}"),
-    (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", ":2: byte 0xfc is not UTF-8"),
-    (HEADER.encode("utf-16"), ": encoded as UTF-16; save it as UTF-8"),
-    (b"x" * (1024 * 1024 + 1), ": too large (allowed 1 MB)"),
-    (
-        HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
-        ":3: start_velocity is in line 2 already; one row sets the clock",
-    ),
-]
-# The second line of a file, and words of the message.
-INVALID_ROWS = [
-    ("mean_velocty,4,8,m/s,x", "no quantity is called 'mean_velocty'; did you mean mean_velocity? There are: "),
-    ("max_seismic_force_35_s,4,8,N,x", "no quantity is called 'max_seismic_force_35_s'"),
-    ("mean_displacement,4,8,,x", "no unit for mean_displacement; allowed: m, km, cm"),
-    ("mean_velocity,4,8,m,x", "the unit 'm' for mean_velocity; allowed: m/s, km/h"),
-    ("mean_velocity,4,nan,m/s,x", "expected a finite number, found 'nan'"),
-    ("mean_velocity,inf,1,m/s,x", "expected a finite number, found 'inf'"),
-    ("mean_velocity,4,fast,m/s,x", "expected a number, found 'fast'"),
-    ('mean_velocity,4,"0,6",m/s,x', "expected a number, found '0,6'; write the decimals behind a point"),
-    ("mean_velocity,4,1_0,m/s,x", "expected a number, found '1_0'"),
-    ("mean_displacement,4,1e308,km,x", "mean_displacement: a number that large cannot"),
-    ("mean_velocity,4,-8,m/s,x", "mean_velocity is -8 m/s; allowed: at least 0 m/s"),
-    ("band_SL,4,30,-,x", "band_SL is 30; allowed: at least 0, at most 1"),
-    ("band_SL,4,130,%,x", "band_SL is 130 %; allowed: at least 0, at most 1"),  # in the first unit
-    ("band_temperature,4,-5,K,x", "band_temperature is -5 K; allowed: at least -273.15 C"),
-    ('mean_velocity,4,8,m/s,"x', "not a row of comma-separated cells: "),
-    ("mean_velocity,4,8,m/s,\0", "a zero byte; this is not a text file"),
-]
-
-
-@pytest.mark.parametrize(
-    ("text", "message"), [*INVALID, *((f"{HEADER}{row}\n", f":2: {message}") for row, message in INVALID_ROWS)]
-)
+@pytest.mark.parametrize(("text", "message"), WRONG_TARGETS)
 def test_invalid_files_are_errors_with_their_line(tmp_path: Path, text: str | bytes, message: str) -> None:
     words = message if message.startswith("found") else f"targets.csv{message}"
     with pytest.raises(ReportError, match=re.escape(words)):
