@@ -63,15 +63,11 @@ PLANE_2D = toml("""
 """)
 
 
-def block_rows(thawslide: Program, case: Path, output: Path, *words: str) -> dict[str, np.ndarray]:
-    thawslide.ok("block", case, "--output", output, *words)
-    return columns_of(output)
-
-
 def test_a_block_that_turns_back_moves_downhill_as_the_run_does(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(PLANE_2D)
-    rows = block_rows(thawslide, case, tmp_path / "block.csv")
+    thawslide.ok("block", case, "--output", tmp_path / "block.csv")
+    rows = columns_of(tmp_path / "block.csv")
     assert rows["velocity_m_s"][0] == pytest.approx(-np.hypot(5.0, 2.5), rel=1e-3)
     # Upward with sin + mu cos, then downward with sin - mu cos.
     sine, cosine, friction = np.sin(np.radians(26.565)), np.cos(np.radians(26.565)), np.tan(np.radians(15.0))

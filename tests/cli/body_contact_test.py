@@ -9,15 +9,8 @@ from conftest import ROOT, Program, datasets, sets, snapshot_files
 DATA = ROOT.parent / "shared" / "data" / "faults" / "p09-two-bodies-meet"
 CELL = 5.0  # m
 SPACING = CELL / 2.0  # m, of particles
+pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason=f"no folder {DATA}")
 FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
-
-
-@pytest.fixture
-def data_folder() -> Path:
-    """Return the folder of the data; skip if it is absent."""
-    if not DATA.is_dir():
-        pytest.skip(f"no folder {DATA}")
-    return DATA
 
 
 def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
@@ -34,15 +27,13 @@ def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
 
 
 def run_case(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[float, np.ndarray, np.ndarray]]:
-    """Run a case of the data and return its motions."""
     thawslide.ok("run", case, "--output", run, *sets(time__output_interval=0.1, **words))
     return motions(run)
 
 
 @pytest.mark.parametrize("name", ["case", "meet-mc"])
-def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, data_folder: Path, tmp_path: Path, name: str) -> None:
-    """The second body rests until the gap is closed to a particle; momentum is conserved."""
-    states = run_case(thawslide, data_folder / f"{name}.toml", tmp_path / "run", **FRICTIONAL)
+def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, tmp_path: Path, name: str) -> None:
+    states = run_case(thawslide, DATA / f"{name}.toml", tmp_path / "run", **FRICTIONAL)
     momentum = (states[0][1] * states[0][2]).sum()
     have_met = False
     for gap, speeds, masses in states:
@@ -53,15 +44,13 @@ def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, data_folder: Pat
 
 
 @pytest.mark.parametrize("name", ["apart", "apart-mc"])
-def test_bodies_separate_without_drag(thawslide: Program, data_folder: Path, tmp_path: Path, name: str) -> None:
-    """Neither body is dragged when they separate."""
-    for _, speeds, _ in run_case(thawslide, data_folder / f"{name}.toml", tmp_path / "run", **FRICTIONAL):
+def test_bodies_separate_without_drag(thawslide: Program, tmp_path: Path, name: str) -> None:
+    for _, speeds, _ in run_case(thawslide, DATA / f"{name}.toml", tmp_path / "run", **FRICTIONAL):
         assert speeds == pytest.approx([0.0, 2.0], abs=1e-6)
 
 
-def test_a_gap_between_bonded_bodies_has_a_warning(thawslide: Program, data_folder: Path, tmp_path: Path) -> None:
-    """Both check and run warn of bodies that start apart and have a common velocity field."""
+def test_a_gap_between_bonded_bodies_has_a_warning(thawslide: Program, tmp_path: Path) -> None:
     reported = "body.b stands apart from body.a, and contact.between_bodies is"
-    assert reported in thawslide.ok("check", data_folder / "case.toml")
-    short = thawslide("run", data_folder / "case.toml", "--output", tmp_path / "run", *sets(time__end=0.02))
+    assert reported in thawslide.ok("check", DATA / "case.toml")
+    short = thawslide("run", DATA / "case.toml", "--output", tmp_path / "run", *sets(time__end=0.02))
     assert reported in short.stdout

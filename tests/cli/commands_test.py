@@ -21,10 +21,10 @@ def test_version_names_version_commit_and_compiler(thawslide: Program) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [[], ["slide"], ["run"], ["check", LAMPLUGH, "--colour"], ["run", "x", "--threads", 0]]
+    "words", ["", "slide", "run", f"check {LAMPLUGH} --colour", "run x --threads 0", "describe --json --md"]
 )
-def test_invalid_arguments_exit_with_2_and_refer_to_help(thawslide: Program, words: list[object]) -> None:
-    assert "Run with --help for more information." in thawslide.error(*words)
+def test_invalid_arguments_exit_with_2_and_refer_to_help(thawslide: Program, words: str) -> None:
+    assert "Run with --help for more information." in thawslide.error(*words.split())
 
 
 def test_a_misspelt_command_has_a_suggestion(thawslide: Program) -> None:
@@ -37,10 +37,16 @@ def test_help_lists_the_commands(thawslide: Program) -> None:
         assert re.search(rf"^\s+{command}\s+\S", printed, re.MULTILINE), command
 
 
-def test_describe_names_each_key_with_unit_and_default(thawslide: Program) -> None:
+def test_describe_names_each_key_and_has_a_markdown_page_and_a_schema(thawslide: Program) -> None:
     printed = thawslide.ok("describe")
     assert "[time]" in printed and "[material.NAME]" in printed
     assert re.search(r"gravity +gravitational acceleration \[m/s2\]\n.*default: 9\.81", printed)
+    printed = thawslide.ok("describe", "--md")
+    assert printed.startswith("# The case file\n")
+    assert "| `gravity` | m/s2 |" in printed
+    schema = json.loads(thawslide.ok("describe", "--schema"))
+    assert schema["$schema"].startswith("https://json-schema.org/")
+    assert schema["properties"]["time"]["properties"]["end"]["type"] == "number"
 
 
 def test_describe_json_contains_every_key_of_lamplugh(thawslide: Program) -> None:
@@ -54,22 +60,6 @@ def test_describe_json_contains_every_key_of_lamplugh(thawslide: Program) -> Non
         if table in ("material", "body"):
             title, keys = f"[{table}.NAME]", next(iter(entries.values()))
         assert set(keys) <= set(known[title]), title
-
-
-def test_describe_markdown_is_the_reference_page(thawslide: Program) -> None:
-    printed = thawslide.ok("describe", "--md")
-    assert printed.startswith("# The case file\n")
-    assert "| `gravity` | m/s2 |" in printed
-
-
-def test_describe_schema_is_a_schema(thawslide: Program) -> None:
-    schema = json.loads(thawslide.ok("describe", "--schema"))
-    assert schema["$schema"].startswith("https://json-schema.org/")
-    assert schema["properties"]["time"]["properties"]["end"]["type"] == "number"
-
-
-def test_describe_accepts_one_form_only(thawslide: Program) -> None:
-    thawslide.error("describe", "--json", "--md")
 
 
 def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
@@ -105,7 +95,6 @@ def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
 def test_check_plots_the_setup(
     thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
-    """The path is relative to the working directory; by default the figure is next to the case file."""
     (small_case / "stiff.toml").write_text('[case]\nbased_on = "case.toml"\n')
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
@@ -169,7 +158,7 @@ def test_run_with_an_end_is_short_for_set(ran: Ran, thawslide: Program, small_ca
 
 
 def test_block_prints_a_table(thawslide: Program) -> None:
-    names, units, *rows, last = thawslide.ok("block", LAMPLUGH, *sets(time__end=40)).splitlines()
+    names, units, *rows, last = thawslide.ok("block", LAMPLUGH / "case.toml", *sets(time__end=40)).splitlines()
     assert names.split()[:3] == ["time", "velocity", "distance"]
     assert units.split()[:3] == ["s", "m/s", "m"]
     times = [float(row.split()[0]) for row in rows]
@@ -179,9 +168,8 @@ def test_block_prints_a_table(thawslide: Program) -> None:
 
 def test_block_writes_a_csv_and_applies_set(thawslide: Program, tmp_path: Path) -> None:
     file = tmp_path / "x.csv"
-    printed = thawslide.ok(
-        "block", LAMPLUGH, "--output", file, *sets(time__end=10, basal__cohesion=0, basal__residual_cohesion=0)
-    )
+    words = sets(time__end=10, basal__cohesion=0, basal__residual_cohesion=0)
+    printed = thawslide.ok("block", LAMPLUGH, "--output", file, *words)
     columns = columns_of(file)
     times, speeds = columns["time_s"], columns["velocity_m_s"]
     assert next(iter(columns)) == "time_s" and times[0] == 0.0 and times[-1] == pytest.approx(10.0, abs=0.02)
@@ -209,10 +197,6 @@ def test_report_without_thawslide_report_names_the_remedy(lone_binary: Path, pla
     assert outcome.returncode == 2
     assert "thawslide-report cannot be started (No such file or directory)." in outcome.stderr
     assert "put .venv/bin on PATH" in outcome.stderr
-
-
-def test_case_may_be_a_folder_or_its_file(thawslide: Program) -> None:
-    thawslide.ok("block", LAMPLUGH / "case.toml", *sets(time__end=1))
 
 
 def test_check_warns_of_unusual_values_of_broken_material(thawslide: Program) -> None:

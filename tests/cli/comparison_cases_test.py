@@ -15,12 +15,10 @@ DATA = ROOT.parent / "shared" / "data"
 
 
 def options(job: Job) -> list[str]:
-    """Return the options of a job on the command line."""
     return [word for key in job.sets for word in ("--set", key)]
 
 
 def needs(*names: str) -> None:
-    """Skip the test if the user's data are absent."""
     absent = [name for name in names if not (DATA / name).exists()]
     if absent:
         pytest.skip(f"the comparison needs data that are not in the repository: {', '.join(absent)} in ../shared/data")

@@ -3,38 +3,23 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import conftest
 import h5py
 import pytest
-from conftest import (
-    LAMPLUGH,
-    Program,
-    Ran,
-    assert_bitwise_identical,
-    content_of,
-    history,
-    mark_killed,
-    run_facts,
-    sets,
-    snapshot_files,
-    with_profile,
-)
+from conftest import Program, Ran, assert_identical, content_of, history, mark_killed, run_facts, sets, snapshot_files
 
 WORDS = sets(checkpoint__interval=0.15)  # checkpoints at 0, 0.15 and 0.2 s; rows each 0.01 s, snapshots each 0.05 s
 
 
 @pytest.fixture
-def uninterrupted(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
-    """Return the folder of an uninterrupted run."""
-    run = tmp_path / "uninterrupted"
-    thawslide.ok("run", small_case, "--output", run, *WORDS)
-    return run
+def uninterrupted(ran: Ran) -> Path:
+    return ran(*WORDS, name="uninterrupted")
 
 
 @pytest.fixture
-def killed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
+def killed(ran: Ran) -> Path:
     """Return the folder of a run that was killed after its checkpoint at 0.15 s and before the one at its end."""
-    run = tmp_path / "run"
-    thawslide.ok("run", small_case, "--output", run, *WORDS)
+    run = ran(*WORDS)
     mark_killed(run)
     (run / "checkpoint.previous.bin").rename(run / "checkpoint.bin")
     return run
@@ -56,39 +41,24 @@ def hundredths(run: Path) -> list[int]:
     return [round(100 * time) for time in history(run)["time_s"]]
 
 
-def truncate(rows: list[str]) -> list[str]:
-    return rows[:6]
+# Changes of the rows of a history, the first of which is its header; the rows left; the warning.
+DAMAGE: dict[str, tuple[Callable[[list[str]], list[str]], list[int], str]] = {
+    "truncated": (lambda rows: rows[:6], [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}; {kept}"),
+    "garbled": (
+        lambda rows: [*rows[:7], "0.0x" + rows[7], *rows[8:]], [*range(6), *range(7, 21)],
+        "lacks 1 of the 16 rows {upto}; {kept}",
+    ),
+    "removed": (lambda rows: rows[:7] + rows[9:], [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}; {kept}"),
+    "header": (
+        lambda rows: ["\0" * 20 + "\n", *rows[1:]], list(range(21)),
+        "is not as the run wrote it; its rows are complete and are kept",
+    ),
+}  # fmt: skip
 
 
-def garble(rows: list[str]) -> list[str]:
-    return [*rows[:7], "0.0x" + rows[7], *rows[8:]]
-
-
-def remove_rows(rows: list[str]) -> list[str]:
-    return rows[:7] + rows[9:]
-
-
-def overwrite_the_header(rows: list[str]) -> list[str]:
-    return ["\0" * 20 + "\n", *rows[1:]]
-
-
-@pytest.mark.parametrize(
-    ("damage", "left", "reported"),
-    [
-        (truncate, [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}; {kept}"),
-        (garble, [*range(6), *range(7, 21)], "lacks 1 of the 16 rows {upto}; {kept}"),
-        (remove_rows, [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}; {kept}"),
-        (overwrite_the_header, list(range(21)), "is not as the run wrote it; its rows are complete and are kept"),
-    ],
-)
-def test_lost_rows_are_reported(
-    thawslide: Program,
-    uninterrupted: Path,
-    killed: Path,
-    damage: Callable[[list[str]], list[str]],
-    left: list[int],
-    reported: str,
-) -> None:
+@pytest.mark.parametrize("name", DAMAGE)
+def test_lost_rows_are_reported(thawslide: Program, uninterrupted: Path, killed: Path, name: str) -> None:
+    damage, left, reported = DAMAGE[name]
     file, kept = killed / "history.csv", killed / "history.damaged.csv"
     file.write_text("".join(damage(file.read_text().splitlines(keepends=True))))
     found = file.read_bytes()
@@ -96,7 +66,7 @@ def test_lost_rows_are_reported(
         upto="up to t = 0.15 s, which are missing or damaged", kept="what there was is kept as history.damaged.csv"
     )
     assert resumed(thawslide, killed) == [f"history.csv {words}"]
-    assert hundredths(killed) == [round(100 * k / 100) for k in left]
+    assert hundredths(killed) == left
     assert kept.exists() == ("kept as" in words) and (not kept.exists() or kept.read_bytes() == found)
     rows = (uninterrupted / "history.csv").read_text().splitlines()
     assert (killed / "history.csv").read_text().splitlines() == [rows[0], *(rows[1 + k] for k in left)]
@@ -107,9 +77,8 @@ def test_lost_rows_are_reported(
 
 def test_a_lost_history_starts_again(thawslide: Program, killed: Path) -> None:
     (killed / "history.csv").unlink()
-    assert resumed(thawslide, killed) == [
-        "history.csv was missing: it starts again, without the 16 rows up to t = 0.15 s"
-    ]
+    warning = "history.csv was missing: it starts again, without the 16 rows up to t = 0.15 s"
+    assert resumed(thawslide, killed) == [warning]
     assert hundredths(killed) == list(range(16, 21))
 
 
@@ -128,13 +97,11 @@ def index_times(run: Path) -> list[float]:
         return [round(float(time), 9) for time in file["VTKHDF/Steps/Values"][()]]
 
 
-def test_a_damaged_snapshot_after_the_checkpoint_is_written_again(
-    thawslide: Program, uninterrupted: Path, killed: Path
-) -> None:
+def test_a_damaged_last_snapshot_is_written_again(thawslide: Program, uninterrupted: Path, killed: Path) -> None:
     last = snapshot_files(killed)[-1]
     last.write_bytes(b"")
     assert resumed(thawslide, killed) == []
-    assert_bitwise_identical(uninterrupted, killed)
+    assert_identical(uninterrupted, killed)
     assert index_times(killed) == [0, 0.05, 0.1, 0.15, 0.2]
 
 
@@ -148,14 +115,9 @@ def test_a_damaged_snapshot_after_the_checkpoint_is_written_again(
 )
 @pytest.mark.parametrize("is_there", [True, False])
 def test_lost_earlier_snapshots_are_reported(
-    thawslide: Program,
-    uninterrupted: Path,
-    killed: Path,
-    numbers: list[int],
-    words: str,
-    times: list[float],
+    thawslide: Program, uninterrupted: Path, killed: Path, numbers: list[int], words: str, times: list[float],
     is_there: bool,
-) -> None:
+) -> None:  # fmt: skip
     for number in numbers:
         file = killed / "snapshots" / f"{number:06d}.vtkhdf"
         if is_there:
@@ -171,21 +133,18 @@ def test_lost_earlier_snapshots_are_reported(
     assert (killed / "history.csv").read_bytes() == (uninterrupted / "history.csv").read_bytes()
 
 
-def test_a_run_without_snapshots_is_completed(ran: Ran, thawslide: Program) -> None:
-    run = ran()
-    mark_killed(run)
-    for file in snapshot_files(run):
+def test_a_run_without_snapshots_is_completed(thawslide: Program, done: Path) -> None:
+    mark_killed(done)
+    for file in snapshot_files(done):
         file.unlink()
-    thawslide.ok("resume", run)
-    assert not (run / "particles.vtkhdf").exists()
+    thawslide.ok("resume", done)
+    assert not (done / "particles.vtkhdf").exists()
 
 
 @pytest.mark.parametrize(
     ("text", "found"), [("", "it is empty"), ("{\n", "it is not JSON from byte 3 on"), ("{}", "key 'parts' not found")]
 )
-def test_a_damaged_run_json_is_reported_with_the_remedy(
-    thawslide: Program, killed: Path, text: str, found: str
-) -> None:
+def test_a_damaged_run_json_is_reported_with_a_remedy(thawslide: Program, killed: Path, text: str, found: str) -> None:
     (killed / "run.json").write_text(text)
     for command in ("resume", "status"):
         message = thawslide.error(command, killed)
@@ -220,7 +179,7 @@ def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path)
 
 def test_missing_maps_of_the_terrain_are_written_again(ran: Ran, thawslide: Program) -> None:
     words = sets(grid__cell=60, time__end=0.1, time__output_interval=0.1)
-    run = ran(*words, case=LAMPLUGH.parent / "valley3d")
+    run = ran(*words, case=conftest.LAMPLUGH.parent / "valley3d")
     names = ("terrain.tif", "release.tif", "release.qml")
     maps = {name: (run / "maps" / name).read_bytes() for name in names}
     for name in names:
@@ -235,7 +194,7 @@ def test_a_changed_input_is_refused_and_a_changed_original_reported(
     thawslide: Program, small_case: Path, tmp_path: Path, name: str, content: str
 ) -> None:
     """The original need not be that of the start, and the copy need not be valid."""
-    with_profile(small_case)
+    conftest.with_profile(small_case)
     run, original = tmp_path / "run", small_case / name
     thawslide.ok("run", small_case, "--output", run)
     mark_killed(run)
@@ -252,9 +211,7 @@ def test_a_changed_input_is_refused_and_a_changed_original_reported(
 
 
 @pytest.mark.parametrize("name", ["snapshots", "inputs"])
-def test_a_link_in_place_of_a_folder_of_a_run_is_refused(
-    thawslide: Program, done: Path, tmp_path: Path, name: str
-) -> None:
+def test_a_link_in_place_of_a_folder_is_refused(thawslide: Program, done: Path, tmp_path: Path, name: str) -> None:
     elsewhere = (done / name).rename(tmp_path / "elsewhere")
     (done / name).symlink_to(elsewhere)
     before = content_of(elsewhere)

@@ -7,9 +7,7 @@ import pytest
 from conftest import Program
 
 
-def test_a_missing_gpu_is_reported_before_anything_is_written(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
+def test_a_missing_gpu_is_reported_before_writing(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     outcome = thawslide("run", small_case, "--output", run, "--device", "gpu")
     if outcome.returncode == 0:

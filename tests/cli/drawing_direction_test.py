@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rasterio
-from conftest import ROOT, Outcome, Program, Ran, columns_of, history, run_facts, sets
+from conftest import ROOT, Outcome, Program, Ran, columns_of, edit, history, run_facts, sets
 from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line
 
 FAULTS = ROOT.parent / "shared" / "data" / "faults"
@@ -52,7 +52,6 @@ def write_case(folder: Path, *, is_reversed: bool = False, path: list[tuple[floa
 
 
 def turn_rows(file: Path) -> None:
-    """Store a raster from south to north instead of from north to south."""
     with rasterio.open(file) as raster:
         values, profile = raster.read(1), raster.profile
     there = profile["transform"]
@@ -62,7 +61,6 @@ def turn_rows(file: Path) -> None:
 
 
 def assert_alike(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:
-    """Fail unless all columns agree within round-off."""
     assert one.keys() == other.keys()
     for name, values in one.items():
         scale = np.abs(values[np.isfinite(values)]).max(initial=1e-9)
@@ -102,7 +100,6 @@ def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: 
 
 
 def test_discharge_is_positive_downstream(ran: Ran, tmp_path: Path) -> None:
-    """The section just below the release is drawn in both directions."""
     for number, line in enumerate(([(201.0, 40.0), (201.0, 260.0)], [(201.0, 260.0), (201.0, 40.0)])):
         case = write_case(tmp_path / f"case{number}")
         write_line(case / "across.geojson", line)
@@ -111,9 +108,7 @@ def test_discharge_is_positive_downstream(ran: Ran, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])
-def test_the_safety_factor_does_not_depend_on_the_start_of_the_path(
-    thawslide: Program, tmp_path: Path, start: float
-) -> None:
+def test_the_path_start_does_not_affect_the_safety_factor(thawslide: Program, tmp_path: Path, start: float) -> None:
     """The release extends from 105 to 205 m; paths start before, within and below it."""
     words = sets(**COULOMB)
     complete = thawslide("block", write_case(tmp_path / "complete"), *words)
@@ -124,9 +119,7 @@ def test_the_safety_factor_does_not_depend_on_the_start_of_the_path(
 
 
 @pytest.mark.parametrize("is_reversed", [False, True])
-def test_section_keeps_its_direction_when_the_release_lies_at_the_first_end(
-    thawslide: Program, tmp_path: Path, is_reversed: bool
-) -> None:
+def test_section_keeps_its_direction(thawslide: Program, tmp_path: Path, is_reversed: bool) -> None:
     case = write_case(tmp_path / "case", is_reversed=is_reversed)
     words = ["--dem", case / "dem.tif", "--release", case / "release.geojson", "--thickness", 20]
     printed = thawslide.ok("section", tmp_path / "section", *words, "--line", case / "path.geojson")
@@ -160,9 +153,8 @@ def write_slope_in_plane(file: Path, sign: float, how: str) -> Path:
 
     ring = [(100.0, 0.0), (140.0, 0.0), (140.0, 30.0), (100.0, 30.0)]
     vertices = [[x_of(along), 300.0 - fall * along + up] for along, up in ring]
-    ground = (
-        f'type = "plane"\nelevation = {300.0 - fall * x_of(0.0)}\nslope = {float(sign * np.degrees(np.arctan(fall)))!r}'
-    )
+    slope = float(sign * np.degrees(np.arctan(fall)))
+    ground = f'type = "plane"\nelevation = {300.0 - fall * x_of(0.0)}\nslope = {slope!r}'
     if how == "profile":
         rows = sorted((x_of(along), 300.0 - fall * along) for along in (0.0, 200.0, 400.0))
         text = "".join(f"{x!r},{y!r}\n" for x, y in rows)
@@ -196,12 +188,7 @@ def test_slides_towards_lower_and_higher_x_are_mirror_images(thawslide: Program,
 
 def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: Program, tmp_path: Path) -> None:
     case = write_slope_in_plane(tmp_path / "case.toml", 1.0, "profile")
-    text = (
-        case.read_text()
-        .replace("min = [0.0, 0.0]", "min = [-4100.0, 0.0]")
-        .replace("\nfile =", "\nextend = true\nfile =")
-    )
-    case.write_text(text)
+    edit(edit(case, "min = [0.0, 0.0]", "min = [-4100.0, 0.0]"), "\nfile =", "\nextend = true\nfile =")
     rows = ["0.0,300.0", "200.0,180.0", "200.00000000000003,180.0", "400.0,60.0"]
     (tmp_path / "case.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
     for command in ("check", "block"):
@@ -237,7 +224,6 @@ def test_paths_drawn_uphill_give_the_same_front(thawslide: Program, tmp_path: Pa
 
 
 def test_the_block_moves_alike_on_paths_with_different_starts(thawslide: Program, tmp_path: Path) -> None:
-    """The motion is that on the path that starts in the middle of the release."""
     folder = data_folder("g19-path-start")
     slides = {}
     for line in ("s150", "s105", "s305", "s333.3", "s360", "s420"):
@@ -256,7 +242,6 @@ def test_the_block_moves_alike_on_paths_with_different_starts(thawslide: Program
 
 
 def test_a_path_next_to_the_release_measures_the_front_only(thawslide: Program, tmp_path: Path) -> None:
-    """A line parallel to the slide measures its front; a block and a section along it are refused."""
     folder = data_folder("g03-path-uphill")
     side, ends = folder / "line-side.gpkg", {}
     for line in ("down", "side"):
@@ -288,7 +273,6 @@ def test_distances_count_from_the_start_of_the_path(thawslide: Program, tmp_path
 
 
 def test_paths_up_the_opposite_slope_do_not_depend_on_direction(thawslide: Program, tmp_path: Path) -> None:
-    """The slide crosses the valley and moves up the opposite slope."""
     folder, slides = data_folder("g03-path-uphill"), {}
     for line in ("runup", "runup_reversed"):
         words = sets(terrain__file=folder / "valley.tif", maps__path=folder / f"line-{line}.gpkg", time__end=25)

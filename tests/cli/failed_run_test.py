@@ -6,7 +6,7 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import LAMPLUGH, Program, history, run_facts, sets, snapshot_files
+from conftest import FALL, LAMPLUGH, Program, history, run_facts, sets, snapshot_files
 
 PATTERN = (
     r"error: the run failed at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
@@ -14,8 +14,9 @@ PATTERN = (
 )
 
 
-def expect_failure(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match[str]:
+def expect_failure(thawslide: Program, case: Path, run: Path, **keys: object) -> re.Match[str]:
     """Run a case that must fail, check its files, and return the match of the message."""
+    words = sets(**keys)
     message = thawslide.error("run", case, "--output", run, *words, code=3)
     reported = re.fullmatch(PATTERN, message)
     assert reported, message
@@ -38,9 +39,7 @@ def expect_failure(thawslide: Program, case: Path, run: Path, *words: str) -> re
 
 
 def test_a_body_that_leaves_the_domain_upward_fails_the_run(thawslide: Program, tmp_path: Path) -> None:
-    reported = expect_failure(
-        thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, body__slide__velocity="[0,300]")
-    )
+    reported = expect_failure(thawslide, LAMPLUGH, tmp_path / "run", time__end=20, body__slide__velocity="[0,300]")
     # The highest surface, 2146 m, rises 254 m at 300 m/s less gravity: about 0.87 s to the top of the domain at 2400 m.
     assert 0.8 < float(reported[1]) < 0.95
     assert reported[4] == "slide" and 2390.0 < float(reported[6]) < 2400.0
@@ -49,9 +48,8 @@ def test_a_body_that_leaves_the_domain_upward_fails_the_run(thawslide: Program, 
 
 
 def test_a_material_too_soft_for_its_weight_is_named_as_cause(thawslide: Program, tmp_path: Path) -> None:
-    reported = expect_failure(
-        thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, material__rock_ice__youngs_modulus=0.5)
-    )
+    soft = {"material__rock_ice__youngs_modulus": 0.5}
+    reported = expect_failure(thawslide, LAMPLUGH, tmp_path / "run", time__end=20, **soft)
     assert reported[8] == (
         "material 'rock_ice' is too soft (youngs_modulus 0.5 Pa) and collapses under its own weight. Typical values "
         "for broken rock and ice are 1e7 Pa or more."
@@ -59,22 +57,14 @@ def test_a_material_too_soft_for_its_weight_is_named_as_cause(thawslide: Program
 
 
 def test_a_domain_too_short_for_the_slide_fails_the_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    reported = expect_failure(
-        thawslide, small_case, tmp_path / "run", *sets(time__end=1, body__block__velocity="[30,0]")
-    )
+    reported = expect_failure(thawslide, small_case, tmp_path / "run", time__end=1, body__block__velocity="[30,0]")
     assert reported[4] == "block" and 19.9 < float(reported[5]) < 20.0
     assert reported[7] == "it left the domain"
 
 
-def test_a_time_step_too_long_for_the_load_is_named_as_cause(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
+def test_a_step_too_long_for_the_load_is_named_as_cause(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     # A fall at 1e5 m/s2 is too fast for a step of 4 ms; this is not visible at the start.
-    fall = [
-        *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
-        *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
-    ]
-    message = thawslide.error("run", small_case, "--output", tmp_path / "guarded", *fall, code=3)
+    message = thawslide.error("run", small_case, "--output", tmp_path / "guarded", *sets(**FALL), code=3)
     assert re.fullmatch(
         r"error: the run failed at t = \S+ s \(step \d+\): energy grew by \S+ J per m of width without a physical "
         r"cause, \S+ % of all energy so far \(guards\.energy_growth allows 25 %\)\. The fastest particle, \d+ of body "
@@ -84,20 +74,16 @@ def test_a_time_step_too_long_for_the_load_is_named_as_cause(
         r"0\.02\.\n",
         message,
     ), message
-    reported = expect_failure(thawslide, small_case, tmp_path / "run", *fall, *sets(guards__energy_growth="inf"))
+    reported = expect_failure(thawslide, small_case, tmp_path / "run", **FALL, guards__energy_growth="inf")
     assert reported[7] == "its volume ratio is not positive"
     assert reported[8].startswith("the step is too long for the material")
 
 
 # A block at 100 m/s whose friction pore pressure does not reduce: a band of 1 mm boils dry within half a second.
 FAST = sets(
-    grid__max="[220.0, 10.0]",
-    body__block__velocity="[100.0, 0.0]",
-    basal__friction="coefficient",
-    basal__friction_coefficient=0.8,
-    band__thickness=0.001,
-    time__end=0.5,
-)
+    grid__max="[220.0, 10.0]", body__block__velocity="[100.0, 0.0]", basal__friction="coefficient",
+    basal__friction_coefficient=0.8, band__thickness=0.001, time__end=0.5,
+)  # fmt: skip
 
 RunWarnings = Callable[..., list[str]]
 

@@ -14,13 +14,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import pytest
 from conftest import LAMPLUGH, datasets, mark_killed, run_facts, sets
 
 ROOT = Path(__file__).resolve().parents[2]
 FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
+Outcome = subprocess.CompletedProcess[str]
 LEFT_OUT = ("run.json", "run.lock")  # files about processes, not about the slide
 LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
 NOT_BEGUN = "is not a run folder"
+needs_failing_writes = pytest.mark.skipif(not FAILING_WRITES.exists(), reason=f"{FAILING_WRITES} is not built")
 
 
 @dataclass(frozen=True)
@@ -94,7 +97,7 @@ def command_of(program: Path, subject: Subject, run: Path) -> list[str]:
     return [str(program), "run", str(subject.case), "--output", str(run), "--threads", "1", *subject.words]
 
 
-def finish(command: list[str], **more: Any) -> subprocess.CompletedProcess[str]:
+def finish(command: list[str], **more: Any) -> Outcome:
     """Run a command to its end."""
     return subprocess.run(command, capture_output=True, text=True, check=False, **more)
 
@@ -136,6 +139,17 @@ def changed_files(expected: dict[str, str], found: dict[str, str]) -> list[str]:
     return sorted(name for name in names if expected.get(name) != found.get(name))
 
 
+def after_resuming(
+    program: Path, subject: Subject, run: Path, expected: dict[str, str], disturbance: str, outcome: Outcome,
+    remarks: list[str],
+) -> Trial:  # fmt: skip
+    """Resume the run of a disturbed process, or restart it, and return the comparison."""
+    reported = outcome.stderr.strip().splitlines() or [""]
+    remarks = remarks + resume_or_restart(program, subject, run)
+    changed = changed_files(expected, digest(run))
+    return Trial(subject.name, disturbance, outcome.returncode, reported[0], not changed, remarks + changed)
+
+
 def killed(
     program: Path, subject: Subject, run: Path, expected: dict[str, str], span: float, chance: random.Random
 ) -> Trial:
@@ -151,21 +165,16 @@ def killed(
             except subprocess.TimeoutExpired:
                 process.kill()
             code = process.wait()
-    remarks = unreadable(run) + resume_or_restart(program, subject, run)
-    changed = changed_files(expected, digest(run))
-    return Trial(subject.name, f"killed after {delay:.3f} s", code, "", not changed, remarks + changed)
+    outcome = Outcome([], code, "", "")
+    return after_resuming(program, subject, run, expected, f"killed after {delay:.3f} s", outcome, unreadable(run))
 
 
 def environment_of_fault(run: Path, at: int, kind: str, reason: str, count: Path | None = None) -> dict[str, str]:
     """Return the environment in which writing fails (tests/faults/failing_writes.cpp)."""
     return os.environ | {
-        "LD_PRELOAD": str(FAILING_WRITES),
-        "FAULT_FOLDER": str(run),
-        "FAULT_AT": str(at),
-        "FAULT_KIND": kind,
-        "FAULT_REASON": reason,
-        "FAULT_COUNT": str(count or ""),
-    }
+        "LD_PRELOAD": str(FAILING_WRITES), "FAULT_FOLDER": str(run), "FAULT_AT": str(at), "FAULT_KIND": kind,
+        "FAULT_REASON": reason, "FAULT_COUNT": str(count or ""),
+    }  # fmt: skip
 
 
 def calls_that_write(program: Path, subject: Subject, run: Path, count: Path) -> int:
@@ -182,18 +191,13 @@ def failing(
     """Let the writing call number `at` fail, resume the run without failures and compare."""
     environment = environment_of_fault(run, at, kind, reason)
     outcome = finish(command_of(program, subject, run), env=environment)
-    lines = outcome.stderr.strip().splitlines()
-    reported = lines[0] if lines else ""
+    reported = outcome.stderr.strip().partition("\n")[0]
     remarks = []
     if outcome.returncode not in (0, 2, 5) or (outcome.returncode != 0 and not reported.startswith("error: ")):
         remarks.append(f"ended with {outcome.returncode}: {outcome.stderr.strip()}")
     if outcome.returncode != 0 and str(run) not in reported:
         remarks.append(f"the error names no file of the run: {reported}")
-    remarks += resume_or_restart(program, subject, run)
-    changed = changed_files(expected, digest(run))
-    return Trial(
-        subject.name, f"{kind}, {reason}, call {at}", outcome.returncode, reported, not changed, remarks + changed
-    )
+    return after_resuming(program, subject, run, expected, f"{kind}, {reason}, call {at}", outcome, remarks)
 
 
 def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str], size: int) -> Trial:
@@ -204,35 +208,32 @@ def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str]
 
     outcome = finish(command_of(program, subject, run), preexec_fn=limit)
     remarks = [] if outcome.returncode in (2, 5) and "File too large" in outcome.stderr else [outcome.stderr]
-    remarks += resume_or_restart(program, subject, run)
-    changed = changed_files(expected, digest(run))
-    reported = outcome.stderr.splitlines()[0] if outcome.stderr else ""
-    return Trial(
-        subject.name, f"files of {size} bytes at most", outcome.returncode, reported, not changed, remarks + changed
-    )
+    return after_resuming(program, subject, run, expected, f"files of {size} bytes at most", outcome, remarks)
+
+
+@contextmanager
+def mounted(disk: Path, size: int) -> Iterator[bool]:
+    """Mount a disk of a size [kB] on a new folder; yield whether that is allowed."""
+    disk.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", str(disk)]
+    is_mounted = subprocess.run(command, capture_output=True, check=False).returncode == 0
+    try:
+        yield is_mounted
+    finally:
+        if is_mounted:
+            subprocess.run(["umount", str(disk)], check=True)
 
 
 def on_small_disk(
     program: Path, subject: Subject, disk: Path, expected: dict[str, str], sizes: tuple[int, int]
 ) -> Trial | None:
     """Run on a disk of sizes[0] kB, resume with sizes[1] and compare; None if no disk can be mounted."""
-    disk.mkdir()
-    made = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", f"size={sizes[0]}k", "tmpfs", str(disk)], capture_output=True, check=False
-    )
-    if made.returncode != 0:
-        return None
-    try:
+    with mounted(disk, sizes[0]) as is_mounted:
+        if not is_mounted:
+            return None
         run = disk / "run"
         outcome = finish(command_of(program, subject, run))
         is_reported = "No space left" in outcome.stderr or "The disk may be full" in outcome.stderr
         remarks = [] if outcome.returncode in (2, 5) and is_reported else [outcome.stderr]
         subprocess.run(["mount", "-o", f"remount,size={sizes[1]}k", str(disk)], check=True)
-        remarks += resume_or_restart(program, subject, run)
-        changed = changed_files(expected, digest(run))
-        reported = outcome.stderr.splitlines()[0] if outcome.stderr else ""
-        return Trial(
-            subject.name, f"a disk of {sizes[0]} kB", outcome.returncode, reported, not changed, remarks + changed
-        )
-    finally:
-        subprocess.run(["umount", str(disk)], check=True)
+        return after_resuming(program, subject, run, expected, f"a disk of {sizes[0]} kB", outcome, remarks)

@@ -15,7 +15,6 @@ NO_FILE = "a regular file is needed. Replace it by the file itself, or remove it
 
 @pytest.fixture
 def victim(tmp_path: Path) -> Path:
-    """Return a file outside any run, as a target of links."""
     path = tmp_path / "victim"
     path.write_text("mine\n")
     return path
@@ -29,9 +28,7 @@ def reset_to_start(run: Path) -> None:
         (run / name).unlink(missing_ok=True)
 
 
-def test_a_link_in_place_of_the_rows_is_replaced(
-    thawslide: Program, small_case: Path, killed: Path, victim: Path
-) -> None:
+def test_a_link_in_place_of_rows_is_replaced(thawslide: Program, small_case: Path, killed: Path, victim: Path) -> None:
     reset_to_start(killed)
     rows = killed / "history.csv"
     rows.symlink_to(victim)
@@ -74,22 +71,20 @@ def test_a_3d_run_changes_no_foreign_files(
     assert sorted(path.name for path in (run / "inputs").iterdir()) == ["case.toml"]
 
 
-def test_a_folder_with_names_of_run_files_is_not_a_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("names", ["letter.txt", "snapshots/photo.jpg maps/alps.tif case.toml history.csv"])
+def test_a_folder_of_other_files_is_refused(thawslide: Program, small_case: Path, tmp_path: Path, names: str) -> None:
+    """Names of files of a run make no run."""
     folder = tmp_path / "pictures"
-    for name in ("snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"):
+    for name in names.split():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("mine\n")
     before = content_of(folder)
-    message = thawslide.error("run", small_case, "--output", folder, "--overwrite")
-    assert message == (
-        f"error: the output folder {folder} contains other files, and no run. Specify another --output.\n"
-    )
+    refusal = f"error: the output folder {folder} contains other files, and no run. Specify another --output"
+    for words in ([], ["--overwrite"]):
+        assert thawslide.error("run", small_case, "--output", folder, *words).startswith(refusal)
     (folder / "run.json").write_text('{"km": 12}')
     message = thawslide.error("run", small_case, "--output", folder, "--overwrite")
-    assert (
-        "its run.json is damaged, or was written by another program. Specify another --output, or delete the folder."
-        in message
-    )
+    assert "its run.json is damaged, or was written by another program. Specify another --output, or delete" in message
     (folder / "run.json").unlink()
     assert content_of(folder) == before
 
@@ -118,10 +113,8 @@ def test_an_unreadable_checkpoint_is_replaced_by_the_previous_one(thawslide: Pro
     last.unlink()
     last.mkdir()
     printed = thawslide.ok("resume", killed)
-    note = (
-        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous "
-        f"checkpoint"
-    )
+    kept = "it is kept as checkpoint.damaged.bin, and the run continues from the previous checkpoint"
+    note = f"{last} is a folder, no file; {kept}"
     assert printed.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
@@ -150,18 +143,13 @@ def test_foreign_snapshots_are_excluded(thawslide: Program, killed: Path, damage
                 opened["VTKHDF"].attrs["time"] = np.ones(4000)
             else:
                 opened["VTKHDF/PointData/mass"].attrs["unit"] = np.full(4000, b"kilogram")
-    printed = thawslide.ok("resume", killed)
-    assert (
-        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf omits "
-        "them\n"
-    ) in printed
+    words = "of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf omits them"
+    assert f"warning: {words}\n" in thawslide.ok("resume", killed)
 
 
 @pytest.mark.parametrize(("name", "kind"), [("pipe", "a pipe"), ("/dev/zero", "a device")])
 @pytest.mark.parametrize("file", ["run.json", "case.toml", "history.csv", "checkpoint.bin"])
-def test_pipes_and_devices_do_not_block_commands(
-    thawslide: Program, killed: Path, tmp_path: Path, file: str, name: str, kind: str
-) -> None:
+def test_pipes_do_not_block(thawslide: Program, killed: Path, tmp_path: Path, file: str, name: str, kind: str) -> None:
     os.mkfifo(tmp_path / "pipe")
     (killed / file).unlink()
     (killed / file).symlink_to(tmp_path / name)  # an absolute name replaces tmp_path
@@ -183,18 +171,12 @@ def test_status_works_with_an_unreadable_history(thawslide: Program, killed: Pat
     outcome = thawslide("status", killed)
     assert (outcome.returncode, outcome.stderr) == (0, "")
     first, second, third, fourth, fifth = outcome.stdout.splitlines(keepends=True)
-    assert first == (
-        f"{killed}: terminated unexpectedly: the process was killed, the machine stopped, or the disk was full\n"
-    )
+    reason = "the process was killed, the machine stopped, or the disk was full"
+    assert first == f"{killed}: terminated unexpectedly: {reason}\n"
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
     assert third == f"  it may have come further: {rows} is a folder; {NO_FILE}"
     assert fourth.startswith("  last checkpoint ") and fifth == f"  to continue: thawslide resume {killed}\n"
     assert thawslide.json("status", killed)["state"] == "killed"
-
-
-def test_lost_output_exits_with_5(binary: Path, done: Path) -> None:
-    shell = f'"{binary}" status "{done}" > /dev/full'
-    assert os.waitstatus_to_exitcode(os.system(shell + " 2>/dev/null")) == 5
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
@@ -205,6 +187,5 @@ def test_a_temporary_file_that_cannot_be_removed_exits_with_5(thawslide: Program
     outcome = thawslide("resume", killed)
     (killed / "snapshots").chmod(0o755)
     assert outcome.returncode == 5
-    assert outcome.stderr == (
-        f"error: cannot remove {torn}: Permission denied. Check that the folder may be written to.\n"
-    )
+    reason = "Permission denied. Check that the folder may be written to.\n"
+    assert outcome.stderr == f"error: cannot remove {torn}: {reason}"

@@ -12,7 +12,6 @@ Tables = list[dict[str, Any]]
 
 
 def refused(thawslide: Program, case: Path, *words: str) -> str:
-    """Return the error message for an invalid case."""
     run = case.parent / "run-of-a-mistake"
     message = thawslide.error("run", case, "--output", run, *words, quiet=True)
     assert not run.exists()
@@ -29,9 +28,7 @@ def test_there_are_twenty_common_mistakes() -> None:
     assert len({mistake.name for mistake in COMMON_MISTAKES}) == 20
 
 
-def test_an_absent_case_a_folder_without_case_and_an_empty_file_are_refused(
-    thawslide: Program, small_case: Path
-) -> None:
+def test_absent_cases_and_empty_files_are_refused(thawslide: Program, small_case: Path) -> None:
     suggestion = "smal: there is no such file or folder; did you mean 'small'?"
     assert suggestion in refused(thawslide, small_case.parent / "smal")
     (small_case / "case.toml").rename(small_case / "first.toml")
@@ -71,9 +68,7 @@ def test_there_are_hundreds_of_wrong_cases(tables: Tables) -> None:
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_the_case_before_its_changes_is_valid(
-    thawslide: Program, tmp_path: Path, tables: Tables, dimension: int
-) -> None:
+def test_the_case_without_changes_is_valid(thawslide: Program, tmp_path: Path, tables: Tables, dimension: int) -> None:
     first = next(fault for fault in faults(tables) if fault.dimension == dimension)
     (tmp_path / "case.toml").write_text(case_with([first], "").text.replace(first.line + "\n", ""))
     thawslide.ok("check", tmp_path)

@@ -14,7 +14,6 @@ NAMES = ['quo"te', "back\\slash", 'x"\n[time]\nend = 5\n#', "it's $(id) `id`", "
 
 @pytest.mark.parametrize("name", NAMES)
 def test_names_are_only_values_in_the_case_file(ran: Ran, tmp_path: Path, slope: Slope, name: str) -> None:
-    """The names of folder, DEM and release appear only as values of their keys."""
     release = write_rectangle(tmp_path / f"{name}.geojson", WEST + 200.0, SOUTH + 250.0)
     folder = tmp_path / name
     slope.ok(folder=folder, dem=slope(f"{name}.tif"), release=release)
@@ -62,13 +61,6 @@ def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(tmp_path:
     assert outcome.returncode == 2
     assert b"is not UTF-8, as required for names in a case file" in outcome.stderr
     assert not folder.exists()
-
-
-def test_no_location_in_a_removed_file_is_reported(tmp_path: Path, slope: Slope) -> None:
-    release = write_rectangle(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
-    message = slope.error("--cell", 200, release=release, thickness=20)
-    assert message.startswith("error: no case was created, because it would not run: "), message
-    assert "case.toml" not in message
 
 
 def test_a_name_of_maximum_length_is_checked_and_run(thawslide: Program, small_case: Path) -> None:

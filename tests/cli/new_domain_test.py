@@ -7,27 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rasterio
+import terrain_files
 from conftest import Program, Ran, Slope, history, sets
-from terrain_files import (
-    CELL,
-    COLUMNS,
-    DEPTH,
-    ROWS,
-    SOUTH,
-    WEST,
-    WIDTH,
-    write_dem,
-    write_line,
-    write_rectangle,
-    write_release,
-)
+from terrain_files import CELL, COLUMNS, DEPTH, ROWS, SOUTH, WEST, WIDTH, write_dem, write_line, write_rectangle
 
 
 @pytest.mark.parametrize("placement", ["--on-top", "--cut"])
 @pytest.mark.parametrize("thickness", [3.0, 1.0])
-def test_a_thin_release_is_inside_the_domain(
-    ran: Ran, tmp_path: Path, slope: Slope, thickness: float, placement: str
-) -> None:
+def test_a_thin_release_is_inside(ran: Ran, tmp_path: Path, slope: Slope, thickness: float, placement: str) -> None:
     """The release is thinner than the fall of the slope across a cell of the DEM."""
     release = write_rectangle(tmp_path / "thin.geojson", WEST + 203.0, SOUTH + 252.0, 31.0, 23.0)
     slope.ok(placement, release=release, thickness=thickness)
@@ -37,9 +24,7 @@ def test_a_thin_release_is_inside_the_domain(
 @pytest.mark.parametrize(
     "corner", [(6.0, 7.0), ((COLUMNS - 1) * CELL - WIDTH - 6.0, (ROWS - 1) * CELL - DEPTH - 7.0)], ids=["low", "high"]
 )
-def test_a_release_at_the_edge_of_the_dem_runs(
-    ran: Ran, tmp_path: Path, slope: Slope, corner: tuple[float, float]
-) -> None:
+def test_a_release_at_the_edge_runs(ran: Ran, tmp_path: Path, slope: Slope, corner: tuple[float, float]) -> None:
     """The domain includes the outermost points, although their distance is no multiple of the grid's cell, 6 m."""
     release = write_rectangle(tmp_path / "edge.geojson", WEST + corner[0], SOUTH + corner[1])
     slope.ok(release=release, thickness=23)
@@ -47,7 +32,6 @@ def test_a_release_at_the_edge_of_the_dem_runs(
 
 
 def test_more_particles_than_memory_are_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """The message proposes a cell that fits, and `new` writes no files."""
     message = slope.error("--cell", 0.02, thickness=0.02)
     assert re.fullmatch(
         r"error: --cell: a release 0\.02 m thick with cells of 0\.02 m and 2\d0,000,000 particles; they need about "
@@ -64,7 +48,6 @@ def test_more_particles_than_memory_are_refused(thawslide: Program, tmp_path: Pa
 
 
 def test_holes_in_the_flow_path_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """Before the first step, `check` and `run` report where the terrain ends, and the consequence for the slide."""
     slope.new(dem=slope(hole=slice(40, 45)))
     note = (
         r"warning: 50 of \d+ points of the DEM within the domain have no data, the nearest at "
@@ -106,12 +89,9 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     checked = thawslide.json("check", folder)
     assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
     assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
-    others = dict(
-        re.findall(rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [a-z ]+$", printed, re.MULTILINE)
-    )
-    assert {name: float(cell) for name, cell in others.items()} == {
-        name: cell for name, cell in CELLS.items() if name != chosen
-    }
+    pattern = rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [a-z ]+$"
+    others = {name: float(cell) for name, cell in re.findall(pattern, printed, re.MULTILINE)}
+    assert others == {name: cell for name, cell in CELLS.items() if name != chosen}
     assert "warning: " not in printed, "the text names the cells for maps"
 
 
@@ -147,7 +127,6 @@ COARSE = sets(grid__cell=12, time__end=8, basal__friction="constant", basal__fri
 
 
 def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """The motion is nearly that of a release on top; walls would stop it."""
     folder = tmp_path / "slide"
     release = write_rectangle(tmp_path / "wide.geojson", WEST + 150.0, SOUTH + 200.0, SIDE, SIDE)
     printed = slope.ok("--cut", release=release, thickness=THICK)
@@ -175,7 +154,6 @@ def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: 
 
 
 def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(ran: Ran, tmp_path: Path, slope: Slope) -> None:
-    """Their width has a warning, and the case runs."""
     folder = tmp_path / "slide"
     release = write_rectangle(tmp_path / "edge.geojson", WEST + 23.0, SOUTH + 200.0, SIDE, SIDE)
     printed = slope.ok("--cut", release=release, thickness=THICK)
@@ -197,7 +175,7 @@ def test_a_section_has_the_ramps_too(thawslide: Program, tmp_path: Path) -> None
     outline = [(155.0, 105.0), (355.0, 105.0), (355.0, 305.0), (155.0, 305.0)]
     words = [
         *("--dem", write_dem(tmp_path / "dem.tif", lambda x, y: 1000.0 - 0.5 * x)),
-        *("--release", write_release(tmp_path / "release.geojson", outline)),
+        *("--release", terrain_files.write_release(tmp_path / "release.geojson", outline)),
         *("--line", write_line(tmp_path / "line.geojson", [(15.0, 205.0), (775.0, 205.0)])),
     ]
     thawslide.ok("section", tmp_path / "case", *words, "--thickness", THICK, "--cut")

@@ -17,10 +17,7 @@ ACROSS = "across the median thickness of body slide, 24 m, there are "
 MAPS = "too few cells for maps of thickness and area"
 
 
-def test_too_few_particles_across_the_thickness_have_a_warning(
-    thawslide: Program, tmp_path: Path, slope: Slope
-) -> None:
-    """`check` reports their number; `new` and `check` warn if the user's cell makes them too few."""
+def test_too_few_particles_across_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     assert "too few particles" not in slope.ok(folder=tmp_path / "fine")
     checked = thawslide("check", tmp_path / "fine")
     assert (
@@ -29,10 +26,8 @@ def test_too_few_particles_across_the_thickness_have_a_warning(
         "C\n  roughness   noise of 0 m rms"
     ) in checked.stdout
     coarse = slope.new("--cell", 30, folder=tmp_path / "coarse")
-    problem = (
-        f"{ACROSS}too few particles to resolve shear and thinning (found 1.6; needed 4), and {MAPS} (found 0.8; "
-        "needed 8)"
-    )
+    particles = "too few particles to resolve shear and thinning (found 1.6; needed 4)"
+    problem = f"{ACROSS}{particles}, and {MAPS} (found 0.8; needed 8)"
     assert (
         f"warning: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
         "10,000 times the run time.\n"
@@ -51,7 +46,6 @@ def test_too_few_particles_across_the_thickness_have_a_warning(
 
 
 def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """`new` proposes cells for travel distance. It also names those for maps, as do the case, `check` and `run`."""
     folder = tmp_path / "slide"
     outcome = slope.new()
     problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
@@ -86,7 +80,6 @@ def test_a_thickness_of_the_order_of_the_width_has_a_warning(slope: Slope) -> No
 
 
 def test_a_hole_filled_with_zeros_has_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """A slide would fall into the hole: `new`, `check` and `run` warn of it."""
     dem = slope()
     with rasterio.open(dem, "r+") as file:
         heights = file.read(1)
@@ -113,8 +106,6 @@ def test_resampling_a_case_reports_the_domain_that_fits(thawslide: Program, tmp_
 
 
 def test_a_release_near_the_edge_of_the_known_terrain_has_a_warning(tmp_path: Path, slope: Slope) -> None:
-    """`new` warns if the distance to the edge, or to points without data, is shorter than the release."""
-
     def warning(name: str, west: float, hole: slice | None = None) -> str:
         near = write_rectangle(tmp_path / f"{name}.geojson", WEST + west, SOUTH + 250.0)
         printed = slope.ok(folder=tmp_path / name, dem=slope(hole=hole), release=near)

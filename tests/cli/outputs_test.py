@@ -38,9 +38,7 @@ def case_on_dem(slope: Slope) -> Path:
     return slope.case
 
 
-def test_columns_datasets_and_maps_of_runs_are_described(
-    ran: Ran, thawslide: Program, small_case: Path, case_on_dem: Path
-) -> None:
+def test_columns_fields_and_maps_are_listed(ran: Ran, thawslide: Program, small_case: Path, case_on_dem: Path) -> None:
     described = names_in(thawslide.ok("describe", "--outputs"))
     for case in (small_case, case_on_dem):
         run = ran(*sets(time__end=0.02), case=case, name=f"run-{case.name}")

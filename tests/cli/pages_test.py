@@ -14,7 +14,6 @@ HANG = 600.0  # s
 
 @pytest.fixture(scope="module")
 def output(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of the runs of all tests."""
     return tmp_path_factory.mktemp("pages")
 
 

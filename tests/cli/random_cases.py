@@ -64,6 +64,10 @@ def _chance(random: Generator, share: float) -> bool:
     return bool(random.random() < share)
 
 
+def _leaving(random: Generator) -> str:
+    return str(random.choice(["stop", "remove"]))
+
+
 # Elevations [m] of a slope from its highest point downward, with many variations.
 def _relief(random: Generator, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     length = max(np.ptp(x), np.ptp(y))
@@ -156,7 +160,7 @@ def _in_space(random: Generator, case: RandomCase) -> str:
     thickness = random.uniform(0.9, 4.0) * cell
     ring = _polygon(random, centre, radius, points_apart)
     write_geojson(case.folder / "release.geojson", "Polygon", [[place(*c) for c in [*ring, ring[0]]]])
-    body = f'release = "release.geojson"\nthickness = {thickness:.6g}'
+    body = f'release = "release.geojson" | thickness = {thickness:.6g}'
     if _chance(random, 0.3):
         x, y = np.meshgrid(*middles)
         inside = np.hypot(x - centre[0], y - centre[1]) < radius
@@ -170,23 +174,12 @@ def _in_space(random: Generator, case: RandomCase) -> str:
     cells.append(np.ceil((np.ptp(known) + thickness) / cell) + 12.0)
     upper = [low + n * cell for low, n in zip(lower, cells, strict=True)]
     numbers = [", ".join(f"{value:.17g}" for value in corner) for corner in (lower, upper)]
-    text = f"""
-[grid]
-cell = {cell:.17g}
-min = [{numbers[0]}]
-max = [{numbers[1]}]
-leaving = "{random.choice(["stop", "remove"])}"
-[terrain]
-type = "dem"
-file = "dem.tif"
-[body.slide]
-material = "rock"
-shape = "release"
-{body}
-placement = "{random.choice(["on_top", "cut"])}"
-taper = {random.choice([0.0, random.uniform(0.0, 0.5) * radius]):.6g}
-temperature = -1.0
-"""
+    text = toml(f"""
+[grid] cell = {cell:.17g} | min = [{numbers[0]}] | max = [{numbers[1]}] | leaving = "{_leaving(random)}"
+[terrain] type = "dem" | file = "dem.tif"
+[body.slide] material = "rock" | shape = "release" | {body} | placement = "{random.choice(["on_top", "cut"])}"
+  taper = {random.choice([0.0, random.uniform(0.0, 0.5) * radius]):.6g} | temperature = -1.0
+""")
     if _chance(random, 0.3):
         text += f"velocity = [{', '.join(f'{v:.4g}' for v in random.uniform(-15.0, 15.0, 3))}]\n"
     if _chance(random, 0.8):
@@ -227,30 +220,23 @@ def _in_plane(random: Generator, case: RandomCase) -> str:
     middle = random.uniform(0.1, 0.9) * length
     below = np.append(np.linspace(middle, middle + 5.0 * cell, 50), np.clip(x, middle, middle + 5.0 * cell))
     floor = float(np.interp(below, x, heights).max())
-    box = f"min = [{middle:.6g}, {floor:.6g}]\nmax = [{middle + 5.0 * cell:.6g}, {floor + thickness:.6g}]"
-    body = random.choice(['shape = "surface"', f'shape = "box"\n{box}'])
+    box = f"min = [{middle:.6g}, {floor:.6g}] | max = [{middle + 5.0 * cell:.6g}, {floor + thickness:.6g}]"
+    body = random.choice(['shape = "surface"', f'shape = "box" | {box}'])
     ground = random.choice(
         [
-            'type = "profile"\nfile = "profile.csv"',
-            f'type = "plane"\nelevation = {floor:.6g}\nslope = {random.uniform(-40.0, 40.0):.4g}',
-            f'type = "flat"\nelevation = {floor:.6g}',
+            'type = "profile" | file = "profile.csv"',
+            f'type = "plane" | elevation = {floor:.6g} | slope = {random.uniform(-40.0, 40.0):.4g}',
+            f'type = "flat" | elevation = {floor:.6g}',
         ],
         p=[0.7, 0.15, 0.15],
     )
-    return f"""
-[grid]
-cell = {cell:.17g}
-min = [0.0, {lowest:.17g}]
-max = [{cells * cell:.17g}, {lowest + up * cell:.17g}]
-leaving = "{random.choice(["stop", "remove"])}"
-[terrain]
-{ground}
-[body.slide]
-material = "rock"
-{body}
-temperature = -1.0
-velocity = [{random.choice([0.0, random.uniform(-10.0, 10.0)]):.4g}, 0.0]
-"""
+    return toml(f"""
+[grid] cell = {cell:.17g} | min = [0.0, {lowest:.17g}] | max = [{cells * cell:.17g}, {lowest + up * cell:.17g}]
+  leaving = "{_leaving(random)}"
+[terrain] {ground}
+[body.slide] material = "rock" | {body} | temperature = -1.0
+  velocity = [{random.choice([0.0, random.uniform(-10.0, 10.0)]):.4g}, 0.0]
+""")
 
 
 def draw(seed: int, folder: Path) -> RandomCase:
@@ -282,15 +268,10 @@ def attempt(program: Path, case: RandomCase) -> TestedCase:
     tested = TestedCase()
     for words in case.commands:
         done = subprocess.run(
-            [str(program), *words],
-            env=os.environ | FEW_THREADS,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5)),
-            timeout=10 * LONGEST,
-            check=False,
-        )
+            [str(program), *words], env=os.environ | FEW_THREADS, stdin=subprocess.DEVNULL, capture_output=True,
+            text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5)),
+            timeout=10 * LONGEST, check=False,
+        )  # fmt: skip
         if done.returncode == -signal.SIGXCPU:
             tested.codes[words[0], CUT_OFF] += 1
             continue

@@ -14,6 +14,7 @@ from faults import before_its_first_checkpoint
 # Leaves the domain at about 1 s.
 LEAVES = sets(time__end=3, grid__max="[17,10]", body__block__velocity="[3,0]", basal__friction_angle=1)
 CHECKPOINTS = ("checkpoint.bin", "checkpoint.previous.bin")
+Prepare = Callable[[Path], object]
 
 
 def refused(thawslide: Program, run: Path, *words: object) -> str:
@@ -24,7 +25,7 @@ def refused(thawslide: Program, run: Path, *words: object) -> str:
     return message
 
 
-def changed_case(*changes: tuple[str, str]) -> Callable[[Path], None]:
+def changed_case(*changes: tuple[str, str]) -> Prepare:
     """Return a function that edits the case of a killed run."""
 
     def prepare(run: Path) -> None:
@@ -81,8 +82,7 @@ LOST = (
     ("prepare", "words", "message"),
     [
         (
-            unchanged,
-            "--set grid.cell=2 --set body.block.porosity=0.1 --end 1",
+            unchanged, "--set grid.cell=2 --set body.block.porosity=0.1 --end 1",
             "grid.cell, body.block.porosity cannot be changed on resume, because earlier results depend on it. "
             "Allowed: [time], [checkpoint], [guards], grid.leaving, ",
         ),
@@ -90,66 +90,52 @@ LOST = (
         (unchanged, "--end 2 --set time.end=3", "--end is short for --set time.end: give one of the two."),
         (unchanged, "--end -1", "-1 found; allowed: above 0"),
         (
-            unchanged,
-            "--set time.ende=3",
+            unchanged, "--set time.ende=3",
             "--set time.ende=3: key 'time.ende' is not known in [time]; did you mean 'end'?",
         ),
         (
-            unchanged,
-            "--set basal.friction_angle=5",
+            unchanged, "--set basal.friction_angle=5",
             "{run} has reached its end at 0.2 s: no step is left that could take basal.friction_angle=5. Give a later "
             "end too: --end T.\n",
         ),
-        (
-            unchanged,
-            "--end 0.3 --set guards.volume=remove",
-            "a continued run cannot change this. Run the case again.",
-        ),
+        (unchanged, "--end 0.3 --set guards.volume=remove", "a continued run cannot change this. Run the case again."),
         (unchanged, "--output {run} --end 0.3", "contains another run. Specify another --output"),
         # Results after the older checkpoint would be removed.
         (
-            without_last_checkpoint,
-            "--end 0.1",
+            without_last_checkpoint, "--end 0.1",
             "the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one.",
         ),
         (
-            changed_case(END, COHESION),
-            "",
+            changed_case(END, COHESION), "",
             SINCE_CHECKPOINT + "material.rock.cohesion is 200000.0, was 100000.0; time.end is 0.4, was 0.2. Put that "
             "back, or remove the file, which is then written again. Specify changes on the command line: "
             "thawslide resume {run} --set KEY=VALUE, or --end T.\n",
         ),
         (
-            changed_case(END),
-            "",
+            changed_case(END), "",
             SINCE_CHECKPOINT + "time.end is 0.4, was 0.2. Specify a new end on the command line: "
             "thawslide resume {run} --end 0.4.\n",
         ),
         (
-            lambda run: edit(run / "case.toml", *END),
-            "",
+            lambda run: edit(run / "case.toml", *END), "",
             "{run} has reached its end at 0.2 s, and {run}/case.toml has changed since: time.end is 0.4, was 0.2. "
             "Specify a new end on the command line: thawslide resume {run} --end 0.4.\n",
         ),
         (changed_before_checkpoint, "", SINCE_START),
         (changed_before_checkpoint, "--end 0.3", SINCE_START),
         (
-            changed_without_checkpoints,
-            "",
+            changed_without_checkpoints, "",
             "its SHA-256 is not that of run.json. There is no checkpoint to continue from",
         ),
         (without_checkpoints, "--end 0.3", LOST),
         (lambda run: (mark_killed(run), without_checkpoints(run)), "--end 0.3", LOST),
         (
-            foreign_copy,
-            "--end 0.3",
+            foreign_copy, "--end 0.3",
             "{run}/run.json: damaged: it names ../../../etc/hostname as the copy of an input; those lie in inputs/.\n",
         ),
     ],
-)
-def test_a_change_is_refused(
-    thawslide: Program, done: Path, prepare: Callable[[Path], object], words: str, message: str
-) -> None:
+)  # fmt: skip
+def test_a_change_is_refused(thawslide: Program, done: Path, prepare: Prepare, words: str, message: str) -> None:
     """The error is complete if it ends with a new line."""
     prepare(done)
     found, expected = refused(thawslide, done, *words.format(run=done).split()), message.format(run=done)
@@ -170,9 +156,7 @@ def test_a_changed_case_is_restored_or_put_back(thawslide: Program, killed: Path
 
 
 @pytest.mark.parametrize("is_killed", [True, False])
-def test_a_new_end_in_the_case_file_is_answered_with_the_command(
-    thawslide: Program, done: Path, is_killed: bool
-) -> None:
+def test_a_new_end_in_the_case_is_answered_with_the_command(thawslide: Program, done: Path, is_killed: bool) -> None:
     """The command works, unless another value has changed too."""
     if is_killed:
         mark_killed(done)
@@ -360,9 +344,7 @@ def test_only_the_last_of_two_changes_must_be_repeated(thawslide: Program, done:
     assert "friction_angle = 5.0 " in (done / "case.toml").read_text()
 
 
-def test_a_change_interrupted_twice_before_the_first_checkpoint_must_be_repeated(
-    thawslide: Program, done: Path
-) -> None:
+def test_a_change_interrupted_twice_before_a_checkpoint_must_be_repeated(thawslide: Program, done: Path) -> None:
     facts = run_facts(done)
     part = {**facts["parts"][0], "changes": ["basal.friction_angle=5"], "case_sha256": "0" * 64}
     facts["parts"] += [part, part]

@@ -4,9 +4,8 @@ import signal
 import time
 from pathlib import Path
 
-import pytest
 from conftest import HANG, Program, content_of, history, run_facts, sets
-from faults import FAILING_WRITES, environment_of_fault
+from faults import environment_of_fault, needs_failing_writes
 
 MEGABYTE = 2**20
 
@@ -36,18 +35,8 @@ def test_a_change_that_is_refused_leaves_no_copy(thawslide: Program, done: Path,
     assert content_of(done) == before
 
 
-def test_a_copy_never_replaces_another_run(thawslide: Program, done: Path) -> None:
-    before = content_of(done)
-    message = thawslide.error("resume", done, "--output", done, "--end", 0.3)
-    assert "contains another run. Specify another --output" in message
-    assert content_of(done) == before
-
-
-def test_a_copy_that_fails_is_removed_and_the_run_stays_unchanged(
-    thawslide: Program, done: Path, tmp_path: Path
-) -> None:
-    if not FAILING_WRITES.exists():
-        pytest.skip(f"{FAILING_WRITES} is not built")
+@needs_failing_writes
+def test_a_copy_that_fails_is_removed_and_the_run_unchanged(thawslide: Program, done: Path, tmp_path: Path) -> None:
     before, branch = content_of(done), tmp_path / "branch"
     words = ("resume", done, "--output", branch, "--end", 0.3)
     failures = 0
@@ -63,9 +52,8 @@ def test_a_copy_that_fails_is_removed_and_the_run_stays_unchanged(
     assert failures > 5  # folders and files of the copy
 
 
+@needs_failing_writes
 def test_a_copy_that_fails_in_an_empty_folder_leaves_it_empty(thawslide: Program, done: Path, tmp_path: Path) -> None:
-    if not FAILING_WRITES.exists():
-        pytest.skip(f"{FAILING_WRITES} is not built")
     branch = tmp_path / "branch"
     branch.mkdir()
     words = ("resume", done, "--output", branch, "--end", 0.3)

@@ -4,21 +4,10 @@ import shutil
 import signal
 from pathlib import Path
 
+import conftest
 import numpy as np
 import pytest
-from conftest import (
-    LAMPLUGH,
-    Interrupted,
-    Program,
-    Ran,
-    assert_bitwise_identical,
-    datasets,
-    history,
-    mark_killed,
-    run_facts,
-    sets,
-    snapshot_files,
-)
+from conftest import LAMPLUGH, Program, Ran, assert_identical, history, mark_killed, run_facts, sets, snapshot_files
 
 END, ROWS, SNAPSHOTS = 3.0, 0.09, 0.45  # s; each snapshot has a row; steps end at snapshots only
 WORDS = sets(time__stepping="adaptive", time__end=END, time__history_interval=ROWS, time__output_interval=SNAPSHOTS)
@@ -26,7 +15,6 @@ WORDS = sets(time__stepping="adaptive", time__end=END, time__history_interval=RO
 
 @pytest.fixture(scope="module")
 def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of a run without interruption."""
     run = tmp_path_factory.mktemp("runs") / "whole"
     thawslide.ok("run", LAMPLUGH, "--output", run, *WORDS)
     return run
@@ -47,7 +35,7 @@ def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) ->
     few = ran(*words, case=LAMPLUGH, name="few")
     assert run_facts(few)["steps"] == run_facts(whole)["steps"]
     for one, other in zip(snapshot_files(few), snapshot_files(whole), strict=True):
-        first, second = datasets(one), datasets(other)
+        first, second = conftest.datasets(one), conftest.datasets(other)
         assert all(values.tobytes() == second[key].tobytes() for key, values in first.items()), one.name
     rows = history(whole)["time_s"]
     late = [float(np.min(np.abs(rows - due_time))) for due_time in np.arange(0.0, END, SNAPSHOTS)]
@@ -56,24 +44,20 @@ def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) ->
 
 @pytest.mark.parametrize("percent", [10, 40])
 def test_a_stopped_run_ends_bitwise_identical(
-    thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path, percent: int
+    thawslide: Program, interrupted: conftest.Interrupted, whole: Path, tmp_path: Path, percent: int
 ) -> None:
     run = tmp_path / "run"
     assert interrupted(LAMPLUGH, run, WORDS, signal.SIGTERM, percent) == 4
     assert 0.0 < run_facts(run)["simulated_time_s"] < END
     thawslide.ok("resume", run, "--threads", 1)
-    assert_bitwise_identical(whole, run)
+    assert_identical(whole, run)
     assert run_facts(run)["steps"] == run_facts(whole)["steps"]
 
 
 RESTS = sets(
-    time__end=2,
-    time__history_interval=0.05,
-    time__output_interval=0.5,
-    body__block__velocity="[3,0]",
-    time__stop_at_rest=0.5,
-    time__rest_time=0.0515,
-)
+    time__end=2, time__history_interval=0.05, time__output_interval=0.5, body__block__velocity="[3,0]",
+    time__stop_at_rest=0.5, time__rest_time=0.0515,
+)  # fmt: skip
 
 
 @pytest.mark.parametrize(("step", "steps"), [(0.002, 25), (0.0005, 100), (0.0007, 71)])
@@ -117,7 +101,7 @@ def test_other_steps_are_bitwise_identical_after_a_kill(thawslide: Program, done
     mark_killed(twice)
     (twice / "checkpoint.previous.bin").rename(twice / "checkpoint.bin")
     assert "continuing from t = 0.2" in thawslide.ok("resume", twice)
-    assert_bitwise_identical(done, twice)
+    assert_identical(done, twice)
 
 
 def test_checkpoints_change_no_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -125,7 +109,7 @@ def test_checkpoints_change_no_step(thawslide: Program, small_case: Path, tmp_pa
     runs = [tmp_path / name for name in ("without", "with")]
     for run, interval in zip(runs, (0, 0.013), strict=True):
         thawslide.ok("run", small_case, "--output", run, *words, *sets(checkpoint__interval=interval))
-    assert_bitwise_identical(*runs)
+    assert_identical(*runs)
 
 
 def test_the_guard_of_small_steps_acts_once_steps_are_adaptive(thawslide: Program, done: Path) -> None:
@@ -137,9 +121,7 @@ def test_the_guard_of_small_steps_acts_once_steps_are_adaptive(thawslide: Progra
 
 
 @pytest.mark.parametrize("interval", [0.001, 10.0])
-def test_the_last_row_and_snapshot_at_rest_precede_the_checkpoint(
-    ran: Ran, thawslide: Program, interval: float
-) -> None:
+def test_last_row_and_snapshot_precede_the_checkpoint(ran: Ran, thawslide: Program, interval: float) -> None:
     """Therefore a kill between them loses no results."""
     run = ran(*RESTS, *sets(checkpoint__interval=interval))
     rest = run_facts(run)["simulated_time_s"]

@@ -6,20 +6,9 @@ import signal
 import subprocess
 from pathlib import Path
 
+import conftest
 import pytest
-from conftest import (
-    HANG,
-    LAMPLUGH,
-    Interrupted,
-    Program,
-    Ran,
-    assert_bitwise_identical,
-    content_of,
-    history,
-    mark_killed,
-    run_facts,
-    sets,
-)
+from conftest import HANG, LAMPLUGH, Interrupted, Program, Ran, assert_identical, history, mark_killed, run_facts, sets
 from faults import before_its_first_checkpoint, digest
 
 # Rows, snapshots and checkpoints have different times.
@@ -28,7 +17,6 @@ WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.4
 
 @pytest.fixture(scope="module")
 def complete(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of an uninterrupted run."""
     run = tmp_path_factory.mktemp("runs") / "complete"
     thawslide.ok("run", LAMPLUGH, "--output", run, *WORDS)
     return run
@@ -46,7 +34,7 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert 3 * percent / 100 <= stop < 3.0
     assert history(run)["time_s"][-1] <= stop
     assert thawslide.ok("resume", run, "--threads", 1).startswith(f"continuing from t = {stop:g} s\n")
-    assert_bitwise_identical(complete, run)
+    assert_identical(complete, run)
     assert (run / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()
     after, expected = run_facts(run), run_facts(complete)
     assert after["status"] == "done" and after["steps"] == expected["steps"] == 300
@@ -61,20 +49,16 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 300 / after["wall_s"])
 
 
-def test_a_stopped_run_on_band_columns_ends_bitwise_identical(
-    ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path
-) -> None:
+def test_a_stop_does_not_change_columns(ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path) -> None:
     case, run = LAMPLUGH.parent / "lamplugh-columns", tmp_path / "run"
     complete = ran(*WORDS, case=case, name="complete")
     assert interrupted(case, run, WORDS, signal.SIGTERM, 30) == 4
     thawslide.ok("resume", run, "--threads", 1)
-    assert_bitwise_identical(complete, run)
+    assert_identical(complete, run)
     assert (run / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()
 
 
-def test_a_killed_run_continues_from_its_last_checkpoint(
-    thawslide: Program, interrupted: Interrupted, complete: Path, tmp_path: Path
-) -> None:
+def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, complete: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert interrupted(LAMPLUGH, run, WORDS, signal.SIGKILL, 30) == -signal.SIGKILL
     assert run_facts(run)["status"] == "running"
@@ -87,7 +71,7 @@ def test_a_killed_run_continues_from_its_last_checkpoint(
     assert reported and reported[1] == reported[3] and float(reported[2]) == pytest.approx(rows[-1], rel=1e-5)
     checkpoint = float(reported[1])
     assert 0.8 <= checkpoint <= rows[-1] + 0.07 and checkpoint / 0.4 == pytest.approx(round(checkpoint / 0.4))
-    assert_bitwise_identical(complete, run)
+    assert_identical(complete, run)
 
 
 def test_a_stopped_run_prints_the_command_to_continue(thawslide: Program, tmp_path: Path) -> None:
@@ -109,7 +93,7 @@ def test_a_finished_run_continues_when_its_end_is_moved(ran: Ran, thawslide: Pro
     longer = ran(*sets(time__end=0.0099), *words, name="longer")
     printed = thawslide.ok("resume", longer, "--end", 0.05)
     assert printed.startswith("continuing from t = 0.0099 s\nchanged: time.end=0.05\n")
-    assert_bitwise_identical(complete, longer)
+    assert_identical(complete, longer)
     assert (longer / "case.toml").read_text() == (complete / "case.toml").read_text()
     first, second = run_facts(longer)["parts"]
     assert first["changes"] == [] and second["changes"] == ["time.end=0.05"]
@@ -123,7 +107,7 @@ def test_a_run_that_particles_have_left_continues(ran: Ran, thawslide: Program) 
     left = history(longer)["left_mass_kg"][-1]
     assert 0 < left < history(complete)["left_mass_kg"][-1]
     thawslide.ok("resume", longer, "--set", "time.end=0.2")
-    assert_bitwise_identical(complete, longer)
+    assert_identical(complete, longer)
     assert (longer / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()
     assert run_facts(longer)["particles"] == run_facts(complete)["particles"]
 
@@ -136,9 +120,7 @@ def damaged(content: bytes, damage: str) -> bytes:
 
 
 @pytest.mark.parametrize("damage", ["a changed byte", "a lost end"])
-def test_a_damaged_checkpoint_is_replaced_by_the_previous_one(
-    ran: Ran, thawslide: Program, tmp_path: Path, damage: str
-) -> None:
+def test_previous_checkpoints_replace_damaged_ones(ran: Ran, thawslide: Program, tmp_path: Path, damage: str) -> None:
     run = ran(*sets(checkpoint__interval=0.15))
     complete = Path(shutil.copytree(run, tmp_path / "complete"))
     mark_killed(run)
@@ -155,7 +137,7 @@ def test_a_damaged_checkpoint_is_replaced_by_the_previous_one(
     # The intact checkpoint is unchanged, with the damaged one next to it.
     assert (run / "checkpoint.previous.bin").read_bytes() == before.read_bytes()
     assert run_facts(run)["parts"][1]["warnings"] == [printed.splitlines()[0].removeprefix("warning: ")]
-    assert_bitwise_identical(complete, run)
+    assert_identical(complete, run)
     assert file.read_bytes() == (complete / "checkpoint.bin").read_bytes()
 
 
@@ -164,15 +146,13 @@ def test_two_damaged_checkpoints_are_refused(thawslide: Program, killed: Path, d
     files = [killed / "checkpoint.bin", killed / "checkpoint.previous.bin"]
     for file in files:
         file.write_bytes(damaged(file.read_bytes(), damage))
-    before = content_of(killed)
+    before = conftest.content_of(killed)
     message = thawslide.error("resume", killed)
     assert all(f"{file} is damaged" in message for file in files)
-    assert content_of(killed) == before
+    assert conftest.content_of(killed) == before
 
 
-def test_a_run_killed_after_its_initial_checkpoint_ends_bitwise_identical(
-    ran: Ran, thawslide: Program, tmp_path: Path
-) -> None:
+def test_a_run_killed_after_its_start_ends_bitwise_identical(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
     run = tmp_path / "run"
     words = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45)
     with thawslide.start("run", LAMPLUGH, "--output", run, *words, stdout=subprocess.DEVNULL) as process:
@@ -184,7 +164,7 @@ def test_a_run_killed_after_its_initial_checkpoint_ends_bitwise_identical(
     assert thawslide.ok("resume", run, "--threads", 1).startswith("continuing from t = 0 s")
     assert not torn.exists()
     twin = ran(*words, case=LAMPLUGH, name="twin")
-    assert_bitwise_identical(twin, run)
+    assert_identical(twin, run)
 
 
 def test_checkpoints_are_also_written_by_wall_clock_time(thawslide: Program, tmp_path: Path) -> None:
@@ -210,14 +190,12 @@ def test_a_run_killed_before_its_first_checkpoint_starts_again(thawslide: Progra
     before_its_first_checkpoint(done)
     (done / "terrain.csv").unlink()
     assert thawslide.ok("resume", done).startswith(f"{done} was cut off before its first checkpoint; it starts again\n")
-    assert_bitwise_identical(finished, done)
+    assert_identical(finished, done)
     assert [part["from_s"] for part in run_facts(done)["parts"]] == [0, 0]
     assert run_facts(done)["inputs"] == run_facts(finished)["inputs"]
 
 
-def test_a_run_killed_before_it_wrote_its_case_can_be_run_again(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
+def test_a_run_killed_before_its_case_can_be_repeated(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     (run / "inputs").mkdir(parents=True)
     (run / "run.lock").write_text("process 1 on elsewhere\n")

@@ -12,16 +12,9 @@ NOISE = 1.0  # m rms, a tenth of the points' distance of 10 m
 WIDTH = 7.0  # m, of the filter for it
 RELEASE = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
 KEYS = [
-    "noise_m",
-    "noise_cells",
-    "spacing_m",
-    "bump_length_m",
-    "bump_slope",
-    "filter_m",
-    "remaining_slope",
-    "apparent_friction",
-    "narrow_valley_m",
-]
+    "noise_m", "noise_cells", "spacing_m", "bump_length_m", "bump_slope", "filter_m", "remaining_slope",
+    "apparent_friction", "narrow_valley_m",
+]  # fmt: skip
 
 
 def make_case(thawslide: Program, folder: Path, noise: float) -> Path:

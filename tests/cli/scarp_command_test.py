@@ -17,9 +17,7 @@ SURFACES = {
 
 
 @pytest.mark.parametrize("surface", SURFACES)
-def test_release_of_a_volume_makes_a_valid_case(
-    surface: str, thawslide: Program, report_environment: dict[str, str], slope: Slope
-) -> None:
+def test_release_is_a_case(surface: str, thawslide: Program, report_environment: dict[str, str], slope: Slope) -> None:
     folder = slope.folder / "case"
     outline = write_rectangle(slope.folder / "outline.geojson", X - 90.0, Y - 60.0, 180.0, 120.0)
     words = [slope(), *SURFACES[surface], "--within", outline, "--volume", 250000]

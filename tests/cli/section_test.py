@@ -42,7 +42,6 @@ def maps(tmp_path: Path) -> Maps:
 
 
 def profile(folder: Path) -> tuple[list[str], dict[str, np.ndarray]]:
-    """Return comments and columns of a written profile."""
     file = folder / "profile.csv"
     return [line for line in file.read_text().splitlines() if line.startswith("#")], columns_of(file)
 

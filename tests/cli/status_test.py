@@ -11,9 +11,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import HANG, LAMPLUGH, Program, Ran, assert_bitwise_identical, mark_killed, run_facts, sets
+from conftest import HANG, LAMPLUGH, Program, Ran, assert_identical, mark_killed, run_facts, sets
 from faults import FAILING_WRITES, running_in
 
+Process = subprocess.Popen[str]
 KILLED = "terminated unexpectedly: the process was killed, the machine stopped, or the disk was full"
 NO_LOCKS = "it cannot be determined whether it runs, because its file system has no locks"
 
@@ -35,8 +36,7 @@ def environment(request: pytest.FixtureRequest, plain_environment: dict[str, str
 
 
 @pytest.fixture
-def running(binary: Path, environment: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Yield the process of a run into tmp_path / run."""
+def running(binary: Path, environment: dict[str, str], tmp_path: Path) -> Iterator[Process]:
     with running_in(tmp_path / "run", binary, environment) as process:
         yield process
 
@@ -45,9 +45,7 @@ with_locks = pytest.mark.parametrize("environment", ["locks"], indirect=True)
 
 
 @with_locks
-def test_status_of_a_running_and_a_killed_run(
-    thawslide: Program, running: subprocess.Popen[str], tmp_path: Path
-) -> None:
+def test_status_of_running_and_killed_runs(thawslide: Program, running: Process, tmp_path: Path) -> None:
     run = tmp_path / "run"
     printed = thawslide.ok("status", run)
     process = f"process {running.pid} on {socket.gethostname()}"
@@ -80,19 +78,12 @@ def test_status_of_a_running_and_a_killed_run(
 
 
 def test_a_second_process_in_a_folder_is_refused(
-    thawslide: Program,
-    running: subprocess.Popen[str],
-    environment: dict[str, str],
-    plain_environment: dict[str, str],
-    tmp_path: Path,
+    thawslide: Program, running: Process, environment: dict[str, str], plain_environment: dict[str, str], tmp_path: Path
 ) -> None:
     run, given = tmp_path / "run", {"environment": environment}
     process = f"process {running.pid} on {socket.gethostname()}"
-    locks = (
-        ""
-        if environment == plain_environment
-        else f" Its file system has no locks: if that process is no run any more, remove {run / 'run.lock'}."
-    )
+    remedy = f" Its file system has no locks: if that process is no run any more, remove {run / 'run.lock'}."
+    locks = "" if environment == plain_environment else remedy
     message = f"error: {run} is being written by {process}. Wait until that has ended, or stop it.{locks}\n"
     for words in (["resume", run], ["run", LAMPLUGH, "--output", run, "--overwrite"]):
         assert thawslide.error(*words, **given) == message
@@ -108,9 +99,7 @@ def test_a_second_process_in_a_folder_is_refused(
     thawslide.ok("run", LAMPLUGH, "--output", run, "--overwrite", *sets(time__end=0.1), **given)
 
 
-def test_a_stopped_run_removes_its_lock_file(
-    thawslide: Program, running: subprocess.Popen[str], environment: dict[str, str], tmp_path: Path
-) -> None:
+def test_a_stop_unlocks(thawslide: Program, running: Process, environment: dict[str, str], tmp_path: Path) -> None:
     running.send_signal(signal.SIGTERM)
     running.communicate(timeout=HANG)
     assert running.returncode == 4
@@ -121,7 +110,7 @@ def test_a_stopped_run_removes_its_lock_file(
 @with_locks
 @pytest.mark.parametrize(("first", "second"), [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM, signal.SIGINT)])
 def test_a_second_signal_stops_at_once(
-    thawslide: Program, running: subprocess.Popen[str], tmp_path: Path, first: signal.Signals, second: signal.Signals
+    thawslide: Program, running: Process, tmp_path: Path, first: signal.Signals, second: signal.Signals
 ) -> None:
     running.send_signal(signal.SIGSTOP)  # both are pending: the second arrives before the first is handled
     running.send_signal(first)
@@ -144,9 +133,8 @@ def test_without_locks_the_state_is_unknown(thawslide: Program, without_locks: d
     for file in run.rglob("*"):
         os.utime(file, (long_ago, long_ago))
     status = thawslide.ok("status", run, **given)
-    assert re.match(re.escape(f"{run}: {NO_LOCKS}; its last file was written ") + r"[5-9](\.\d)? min ago\n", status), (
-        status
-    )
+    start = re.escape(f"{run}: {NO_LOCKS}; its last file was written ")
+    assert re.match(start + r"[5-9](\.\d)? min ago\n", status), status
     assert status.endswith(f"  if nothing writes there any more: thawslide resume {run}\n")
     reported = thawslide.json("status", run, **given)
     assert reported["state"] == "unknown" and 0 <= reported["last_write_age_s"] - 300 <= time.time() - long_ago - 299
@@ -168,16 +156,15 @@ def test_a_process_of_another_machine_counts_as_running(
         assert thawslide.error(*words, **given) == message
     assert (killed / "history.csv").read_bytes() == before
     status = thawslide.ok("status", killed, **given)
-    assert status.startswith(
-        f"{killed}: {NO_LOCKS} and process 12 on elsewhere has begun to write it; its last file was written "
-    )
+    start = f"{NO_LOCKS} and process 12 on elsewhere has begun to write it; its last file was written "
+    assert status.startswith(f"{killed}: {start}")
     assert status.endswith(f"  if that has surely ended: remove {lock}, then thawslide resume {killed}\n")
     reported = thawslide.json("status", killed, **given)
     assert (reported["state"], reported["process"]) == ("unknown", "process 12 on elsewhere")
     lock.unlink()
     thawslide.ok("resume", killed, **given)
     assert not lock.exists()
-    assert_bitwise_identical(killed, finished)
+    assert_identical(killed, finished)
 
 
 def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -188,14 +175,9 @@ def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Pa
     ages = {name: reported[name] for name in ("last_write_age_s", "checkpoint_age_s")}
     assert all(0 <= age <= time.time() - begin + 1 for age in ages.values())
     assert reported == {
-        "state": "done",
-        "message": "",
-        "process": "",
-        "simulated_time_s": pytest.approx(0.2),
-        "end_s": 0.2,
-        "time_left_s": None,
-        **ages,
-    }
+        "state": "done", "message": "", "process": "", "simulated_time_s": pytest.approx(0.2), "end_s": 0.2,
+        "time_left_s": None, **ages,
+    }  # fmt: skip
 
 
 def test_a_run_in_its_setup_is_running(thawslide: Program, tmp_path: Path) -> None:

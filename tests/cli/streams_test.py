@@ -57,9 +57,7 @@ def test_a_pipe_closed_by_the_reader_is_no_error(thawslide: Program, trap: str) 
 
 
 @pytest.mark.parametrize("closed", ["<&- >&-", "<&- >&- 2>&-", ">&-", ">&- 2>&-", "<&-", "2>&-"])
-def test_output_to_closed_streams_is_not_written_into_files(
-    thawslide: Program, small_case: Path, done: Path, closed: str
-) -> None:
+def test_closed_streams_are_not_written_to_files(thawslide: Program, small_case: Path, done: Path, closed: str) -> None:
     """Otherwise files of the run get the numbers of closed streams, and progress is written into them."""
     run = done.with_name("closed")
     assert thawslide.shell(f'"$@" {closed}', "run", small_case, "--output", run).returncode == 0
@@ -79,9 +77,7 @@ def test_results_for_a_closed_stream_are_lost_and_reported(thawslide: Program) -
 
 
 @pytest.mark.parametrize("words", ["describe --md", "check --json {}"])
-def test_a_file_above_its_size_limit_is_reported(
-    thawslide: Program, small_case: Path, tmp_path: Path, words: str
-) -> None:
+def test_a_file_above_its_limit_is_reported(thawslide: Program, small_case: Path, tmp_path: Path, words: str) -> None:
     script = f'ulimit -f 1; "$@" > {tmp_path / "output"}'
     done = thawslide.shell(script, *words.format(small_case).split())
     assert done.returncode == 5, done.stderr
@@ -122,18 +118,14 @@ def test_files_with_future_times_are_reported(thawslide: Program, done: Path) ->
 
 @needs_full_disk
 @pytest.mark.parametrize("where", [f"> {FULL}", ">&-", "| head -c 1 > /dev/null"])
-def test_a_report_needs_no_terminal(
-    thawslide: Program, report_environment: dict[str, str], done: Path, where: str
-) -> None:
+def test_reports_need_no_stream(thawslide: Program, report_environment: dict[str, str], done: Path, where: str) -> None:
     script = f'set -o pipefail; "$@" {where}'
     report = thawslide.shell(script, "report", done, "--only", "motion", env=report_environment)
     assert (report.returncode, report.stderr) == (0, "")
     assert (done / "report.html").exists()
 
 
-def test_control_characters_in_titles_are_replaced(
-    thawslide: Program, ran: Ran, report_environment: dict[str, str]
-) -> None:
+def test_control_characters_are_replaced(thawslide: Program, ran: Ran, report_environment: dict[str, str]) -> None:
     run = ran("--set", 'case.title="A \\u001b[31mred\\u0007 \\u202eslide"')
     printed = thawslide.ok("report", run, "--only", "motion", environment=report_environment)
     assert printed.startswith("A ?[31mred? ?slide: ")

@@ -13,7 +13,6 @@ PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """Write the page's case next to the files that it names: a slope of 30 degrees and a release on it."""
     text, _ = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     write_slope(tmp_path / "dem.tif")
     write_rectangle(tmp_path / "release.geojson", WEST + 50.0, SOUTH + 250.0)

@@ -37,13 +37,8 @@ NEEDED: dict[str, dict[str, str]] = {
 }
 # Names of tables of the case.
 NAMES = {
-    "material": "rock",
-    "body": "block",
-    "frame": "lid",
-    "substrate": "ice",
-    "probe": "bridge",
-    "contact_pair": "touch",
-}
+    "material": "rock", "body": "block", "frame": "lid", "substrate": "ice", "probe": "bridge", "contact_pair": "touch",
+}  # fmt: skip
 # The other body of the pair.
 OTHER_BODY = {"material": '"rock"', "min": "[16.0, 0.0]", "max": "[18.0, 3.0]", "porosity": "0.3"}
 
