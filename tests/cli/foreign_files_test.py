@@ -79,12 +79,13 @@ def test_a_folder_of_other_files_is_refused(thawslide: Program, small_case: Path
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("mine\n")
     before = content_of(folder)
-    refusal = f"error: the output folder {folder} contains other files, and no run. Specify another --output"
+    refusal = f"error: the output folder {folder} contains other files, and no run. Specify another --output.\n"
     for words in ([], ["--overwrite"]):
-        assert thawslide.error("run", small_case, "--output", folder, *words).startswith(refusal)
+        assert thawslide.error("run", small_case, "--output", folder, *words) == refusal
     (folder / "run.json").write_text('{"km": 12}')
     message = thawslide.error("run", small_case, "--output", folder, "--overwrite")
-    assert "its run.json is damaged, or was written by another program. Specify another --output, or delete" in message
+    remedy = "Specify another --output, or delete the folder."
+    assert f"its run.json is damaged, or was written by another program. {remedy}" in message
     (folder / "run.json").unlink()
     assert content_of(folder) == before
 
