@@ -17,8 +17,8 @@ from thawslide.errors import ReportError
 DESCRIPTION = """Performs the missing runs of all studies and writes their pages and figures again.
 
 Finished runs of the same program, case and inputs are reused. A study whose inputs are absent is skipped. The blind
-forecast (joffre) is made only if it is named. Exit codes: 0 all pages written, 1 a study failed or a number of a page
-differs from its run, 2 wrong usage."""
+forecast (joffre) is made only if it is named. Exit codes: 0 no study failed, 1 a study failed or a number of a page
+differs from its run, 2 wrong usage. The last line names the skipped studies."""
 
 
 def parser() -> argparse.ArgumentParser:
