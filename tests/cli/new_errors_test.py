@@ -53,32 +53,59 @@ MERCATOR_OPTION = """--crs: EPSG:3857 is Web Mercator, whose lengths are those o
     in metres that keeps lengths, such as "EPSG:31287".\n"""
 RASTER = """--thickness: thick.tif is a raster, whose values are the thickness in metres; leave --thickness out, or give
     polygons to --release.\n"""
-NO_CRS, CROSSES = "the file names no coordinate reference system", "polygon 1 (slide) crosses itself"
-EDGE = "the release reaches the outermost points of the DEM in the west"
+NO_CRS = """--dem: bare.tif: the file names no coordinate reference system (x from 411995 to 412895, y from 5159995 to
+    5160595). Set --crs to the one that the data provider states, such as --crs "EPSG:31287".\n"""
+WRONG_CRS = """--dem: wrong.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 411995 to
+    412895, y from 5159995 to 5160595). Set --crs "EPSG:..." to the system of the coordinates, which the data provider
+    states.\n"""
+NO_THICKNESS = """--release: release.geojson: there is no attribute 'thickness', which is needed without --thickness;
+    the file has: name. Correct the name, or add the attribute.\n"""
+EDGE = """--release: edge.geojson: the release reaches the outermost points of the DEM in the west (needed: at least
+    10 m, one cell, beyond the release). Use a DEM that covers the flow path too.\n"""
+OUTSIDE = "--release: outside.geojson: the release lies outside the DEM, by 4,230 m in the east; found: x from 417000"
+PARTLY_OUTSIDE = "--release: outside.geojson: the release lies partly outside the DEM, by 50 m in the east; found:"
+TINY = "--release: tiny.geojson: the release is smaller than a cell of the DEM (9 m2; 100 m2)"
+CROSSES = "--release: release.geojson: polygon 1 (slide) crosses itself at or near 412260 5160300."
 HELP = "Run with --help for more information.\n"
-# Messages of `new`, and its arguments. Of messages that tests/cpp/gis compares as a whole, this is the start.
+# Messages of `new`, and its arguments. A text that ends with a line break is the whole message. Others are its start,
+# because tests/cpp/gis compares the rest.
 REFUSED: list[tuple[str, Callable[[Slope], dict[str, Any]]]] = [
     (RASTER, lambda slope: {"release": raster(slope, THICKNESS), "thickness": 3}),
     (TOO_LARGE("thick.tif"), lambda slope: {"release": raster(slope, 1000 * THICKNESS), "thickness": None}),
     (TOO_LARGE("release.geojson"), lambda _: {"thickness": 1000 * THICKNESS}),
-    ("--release: thick.tif: the thickness", lambda slope: {"release": raster(slope, 0.0), "thickness": None}),
-    (f"--dem: bare.tif: {NO_CRS}", lambda slope: {"dem": slope("bare.tif", crs=None)}),
-    ("--crs: EPSG:4326 is", lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", "EPSG:4326"]}),
-    ("--crs: '32632' is", lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", 32632]}),
-    ("--dem: wrong.tif: the tag", lambda slope: {"dem": slope("wrong.tif", crs="EPSG:4326")}),
+    (
+        "--release: thick.tif: the thickness is not above 0",
+        lambda slope: {"release": raster(slope, 0.0), "thickness": None},
+    ),
+    (NO_CRS, lambda slope: {"dem": slope("bare.tif", crs=None)}),
+    (
+        "--crs: EPSG:4326 is in degrees; ",
+        lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", "EPSG:4326"]},
+    ),
+    (
+        "--crs: '32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? ",
+        lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", 32632]},
+    ),
+    (WRONG_CRS, lambda slope: {"dem": slope("wrong.tif", crs="EPSG:4326")}),
     ("--dem: degrees.tif: the coordinates are degrees", lambda slope: {"dem": degrees(slope)}),
     (MERCATOR, lambda slope: {"dem": slope(crs="EPSG:3857")}),
     (MERCATOR_OPTION, lambda _: {"words": ["--crs", "EPSG:3857"]}),
-    ("--dem: absent.tif: there is no such file", lambda slope: {"dem": slope.folder / "absent.tif"}),
-    ("--release: absent.shp: there is no such file", lambda slope: {"release": slope.folder / "absent.shp"}),
-    ("--release: release.geojson: there is no attribute 'thickness'", lambda _: {"thickness": None}),
+    (
+        "--dem: absent.tif: there is no such file. Correct the path.\n",
+        lambda slope: {"dem": slope.folder / "absent.tif"},
+    ),
+    (
+        "--release: absent.shp: there is no such file. Correct the path.\n",
+        lambda slope: {"release": slope.folder / "absent.shp"},
+    ),
+    (NO_THICKNESS, lambda _: {"thickness": None}),
     (f"--thickness: 0 found; allowed: above 0. {HELP}", lambda _: {"thickness": 0}),
     (f"--thickness: 20m found; allowed: a number above 0, without a unit. {HELP}", lambda _: {"thickness": "20m"}),
-    ("--release: outside.geojson: ", lambda slope: {"release": rectangle(slope, "outside", 5000.0, 0.0)}),
-    ("--release: outside.geojson: ", lambda slope: {"release": rectangle(slope, "outside", 820.0, 0.0)}),
-    (f"--release: edge.geojson: {EDGE}", lambda slope: {"release": rectangle(slope, "edge", 1.0, 100.0)}),
-    ("--release: tiny.geojson: ", lambda slope: {"release": rectangle(slope, "tiny", 203.0, 252.0, 3.0, 3.0)}),
-    (f"--release: release.geojson: {CROSSES}", lambda slope: {"release": edited(slope, cross)}),
+    (OUTSIDE, lambda slope: {"release": rectangle(slope, "outside", 5000.0, 0.0)}),
+    (PARTLY_OUTSIDE, lambda slope: {"release": rectangle(slope, "outside", 820.0, 0.0)}),
+    (EDGE, lambda slope: {"release": rectangle(slope, "edge", 1.0, 100.0)}),
+    (TINY, lambda slope: {"release": rectangle(slope, "tiny", 203.0, 252.0, 3.0, 3.0)}),
+    (CROSSES, lambda slope: {"release": edited(slope, cross)}),
     ("--release: release.geojson: the layer is empty", lambda slope: {"release": edited(slope, list.clear)}),
     (
         "--release: release.geojson: polygon 1 (slide) has no geometry",
