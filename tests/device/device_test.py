@@ -93,7 +93,7 @@ def find_nvcc() -> str:
     nvcc = shutil.which("nvcc") or shutil.which("nvcc", path=f"{cuda_home}/bin")
     if not nvcc:
         pytest.skip(f"no nvcc on the path or in {cuda_home}/bin: device code is not compiled")
-    reported = subprocess.run([nvcc, "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
+    reported = subprocess.run([nvcc, "--version"], capture_output=True, text=True, timeout=LIMIT, check=True).stdout
     version = re.search(r"release (\d+)\.(\d+)", reported)
     assert version, reported
     if int(version.group(1)) < OLDEST:

