@@ -35,12 +35,13 @@ from reproduction.study import ROOT, Job, Place, Study, StudyError
 from reproduction.tables import rewrapped, with_marks
 from thawslide.figures.band import band
 from thawslide.figures.force_record import caption, force_record
+from thawslide.figures.snapshots import velocity
 from thawslide.figures.style import without_title
 from thawslide.run_folder import Run
 
 CASE = ROOT / "cases" / "lamplugh-columns"
 BASE = Job("case", "the case")
-COMMON = ("time.output_interval=10",)
+COMMON = ("time.output_interval=10",)  # except for the case, whose snapshots the figure of speed shows
 QUICK = ("grid.cell=20.0", "time.step=0.02", "time.end=1.0")
 
 
@@ -59,8 +60,11 @@ def variants_of(place: Place) -> list[Job]:
 
 def with_common(place: Place, jobs: list[Job]) -> list[Job]:
     """Return jobs with the settings of all runs."""
-    common = (*COMMON, *(QUICK if place.is_quick else ()))
-    return [replace(job, sets=(*common, *job.sets), cost=cost_of(job)) for job in jobs]
+    quick = QUICK if place.is_quick else ()
+    return [
+        replace(job, sets=(*(() if job.key == BASE.key else COMMON), *quick, *job.sets), cost=cost_of(job))
+        for job in jobs
+    ]
 
 
 def cost_of(job: Job) -> float:
@@ -111,6 +115,9 @@ def write(place: Place) -> None:
     """Write the page and its figures from existing runs."""
     rows, variants, cells = members_of(place), variants_of(place), cell_rows()
     members = [observed(place.runs / row.key) for row in rows]
+    without_title(velocity(Run(place.runs / BASE.key))).savefig(
+        place.page("cases/lamplugh-columns/figures/velocity.png"), dpi=150
+    )
     numerics, on_cells = numerics_rows(), variant_cell_rows(variants)
     found = {row.key: observed(place.runs / row.key) for row in (BASE, *variants, *numerics, *cells, *on_cells)}
     middle, of_force = draw(members, [place.runs / row.key for row in rows], place)
