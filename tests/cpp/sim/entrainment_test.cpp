@@ -12,6 +12,7 @@
 #include "../support/fields.hpp"
 #include "../support/messages.hpp"
 #include "../support/two_bodies.hpp"
+#include "band/basal_segments.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/block.hpp"
