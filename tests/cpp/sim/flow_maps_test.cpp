@@ -11,6 +11,7 @@
 #include "../support/slide_in_space.hpp"
 #include "base/parallel.hpp"
 #include "sim/simulation.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
 namespace {

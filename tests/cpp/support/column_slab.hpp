@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "band/basal_segments.hpp"
 #include "base_cases.hpp"
 
 namespace thawslide::testing_support {

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "../support/column_slab.hpp"
+#include "band/basal_segments.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

@@ -1,6 +1,7 @@
 // Pressure of a block at rest on the ground, and the angle at which it starts to slide.
 #include "../exact/motion.hpp"
 #include "terrain/base_pressure.hpp"
+#include "terrain/ground_on_grid.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
