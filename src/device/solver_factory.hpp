@@ -1,5 +1,5 @@
-// Factory of solvers on a device, and the types of their interface, declared only: users of a simulation do not compile
-// them.
+// Factory of solvers on a device. The types of their interface are declared only, such that files that include this one
+// do not compile them.
 #pragma once
 
 #include <cstddef>
