@@ -15,6 +15,7 @@
 #include "base/portability.hpp"
 #include "device/cuda_graphs.hpp"
 #include "device/gpu.hpp"
+#include "device/solver.hpp"
 
 namespace thawslide::device {
 

@@ -77,7 +77,8 @@ void Simulation<Dim>::start_band_columns() {
         fmt::format("{}: the band is up to {} m thick, and the slide above it {} m on average. Use a thinner band.",
                     config::location_of(parameters_, "band.thickness"), thickest, rounded_text(material.depth, 3)));
   }
-  band_columns_ = std::make_unique<band::BasalSegments<Dim>>(make_columns_model(parameters_, model_, material), model_.motion.gravity);
+  band_columns_ = std::make_unique<band::BasalSegments<Dim>>(make_columns_model(parameters_, model_, material),
+                                                             model_.motion.gravity);
   column_time_ = 0.0;
 }
 

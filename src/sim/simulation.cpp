@@ -7,7 +7,6 @@
 #include "band/basal_segments.hpp"
 #include "band/heat.hpp"
 #include "band/pore_pressure.hpp"
-#include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "device/solver.hpp"
@@ -293,8 +292,6 @@ Simulation<Dim>::Simulation(const config::Case& parameters, const config::Site& 
       model_(make_model<Dim>(parameters, site)),
       grid_(make_grid(parameters, model_)),
       ground_(std::make_unique<terrain::GroundOnGrid<Dim>>()),
-      device_sums_(std::make_unique<device::StepSums<Dim>>()),
-      map_sample_(std::make_unique<device::MapSample>()),
       bed_(make_bed<Dim>(parameters, site, model_)) {
   if (model_.between_bodies.any()) {
     body_contact_ = std::make_unique<mpm::BodyContact<Dim>>();

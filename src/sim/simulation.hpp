@@ -280,12 +280,12 @@ class Simulation {
   mutable std::unique_ptr<device::Solver<Dim>> device_solver_;
   std::unique_ptr<device::StepSums<Dim>> device_sums_;  // of its last step
   terrain::ContactWork<Dim> contact_;
-  Budget<Dim> budget_, budget_before_;    // current, and before the step
-  std::unique_ptr<device::MapSample> map_sample_;       // of the last step
+  Budget<Dim> budget_, budget_before_;             // current, and before the step
+  std::unique_ptr<device::MapSample> map_sample_;  // of the last step
   std::string device_name_;
   band::FlowDepth<Dim> flow_depth_;
   std::unique_ptr<band::BasalSegments<Dim>> band_columns_;  // null unless the band consists of columns
-  std::unique_ptr<GridOfDevice<Dim>> grid_of_device_;  // as band columns read it; null without band columns
+  std::unique_ptr<GridOfDevice<Dim>> grid_of_device_;       // as band columns read it; null without band columns
   std::optional<terrain::Bed<Dim>> bed_;
   std::unique_ptr<BedOfDevice<Dim>> bed_of_device_;      // null without a bed below a device step
   std::unique_ptr<mpm::BodyContact<Dim>> body_contact_;  // null if all bodies share nodes

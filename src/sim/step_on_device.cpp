@@ -23,6 +23,8 @@ void Simulation<Dim>::use_device(const std::string& device, device::SolverFactor
   release_device();
   device_name_ = device;
   make_solver_ = std::move(make);
+  device_sums_ = std::make_unique<device::StepSums<Dim>>();
+  map_sample_ = std::make_unique<device::MapSample>();
 }
 
 // Runs work on the device. If the device fails, the host keeps the particles of the last synchronization, or a mixture

@@ -14,7 +14,7 @@ MORAINE = toml("""
 """)
 
 
-def test_substrates_and_gaps_are_reported(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_areas_of_the_ground_and_gaps_are_reported(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     case = small_case / "case.toml"
     assert "substrate" not in thawslide.ok("check", small_case)
     case.write_text(case.read_text() + GLACIER + MORAINE)
