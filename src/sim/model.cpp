@@ -72,12 +72,22 @@ physics::Strength strength_of(const config::Material& material, double cell) {
   return strength;
 }
 
-mpm::MaterialModel make_material(const config::Material& material, double cell, bool deformation) {
+// Without viscosity_time, `viscosity_number` times the time that an elastic wave in rock takes across a cell [s]; 0 if
+// the case has no mechanics.
+double viscosity_time_of(const config::Material& material, double p_wave_modulus, double rock_density, double cell) {
+  if (!std::isnan(material.viscosity_time)) {
+    return material.viscosity_time;
+  }
+  return p_wave_modulus > 0.0 ? material.viscosity_number * cell * std::sqrt(rock_density / p_wave_modulus) : 0.0;
+}
+
+mpm::MaterialModel make_material(const config::Material& material, double rock_density, double cell, bool deformation) {
   mpm::MaterialModel model;
   model.elastic = physics::Elastic::from_young_poisson(static_cast<Real>(material.youngs_modulus),
                                                        static_cast<Real>(material.poisson_ratio));
   model.gaps_close_first = material.gaps_close_first;
-  model.viscosity_time = static_cast<Real>(material.viscosity_time);
+  model.viscosity_time = static_cast<Real>(
+      viscosity_time_of(material, static_cast<double>(model.elastic.p_wave_modulus()), rock_density, cell));
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {
     const physics::Strength strength = strength_of(material, cell);
@@ -347,7 +357,8 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
     model.material_names.push_back(name);
-    model.motion.materials.push_back(make_material(material, parameters.grid.cell, parameters.mechanisms.deformation));
+    model.motion.materials.push_back(make_material(material, parameters.phases.rock_density, parameters.grid.cell,
+                                                   parameters.mechanisms.deformation));
     const bool is_free = material.gaps_close_first && physics::gap_is_free(strength_of(material, parameters.grid.cell));
     model.free_gaps.push_back(is_free ? Real(1) : Real(0));
   }
