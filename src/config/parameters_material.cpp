@@ -184,7 +184,7 @@ std::vector<Parameter<Material>> material_parameters() {
       parameter(&Material::viscosity_number,
                 {.key = "viscosity_number",
                  .range = at_least(0),
-                 .text = "numerical viscosity: viscosity time divided by the time grid.cell sqrt(rho_R/(lambda + 2 G)) "
+                 .text = "numerical viscosity: viscosity time divided by the time grid.cell sqrt(rho_S/(lambda + 2 G)) "
                          "of an elastic wave across a cell; 0: none"})
           .only_if("when viscosity_time is not given", "viscosity_time",
                    [](const Case&, const Material& material) { return std::isnan(material.viscosity_time); }),
