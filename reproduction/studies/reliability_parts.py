@@ -242,7 +242,7 @@ def soak(folder: Path, options: argparse.Namespace) -> list[dict[str, Any]]:
         if runs[0].poll() is None and (now := memory_of(runs[0].pid)) > 0:
             memory.append(now)
         time.sleep(0.5)
-    without = soak_run(PROGRAM, folder, "without", *words)
+    without = soak_run(PROGRAM, folder, "without", *words, *sets(material__rock__viscosity_time=0))
     output = without.communicate()[0]
     facts = json.loads((folder / "run0" / "run.json").read_text())
     names = ("history.csv", "checkpoint.bin")

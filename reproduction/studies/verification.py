@@ -56,8 +56,9 @@ TOPICS = {
         "RoughDems LeavingDem HeightField ReleaseVolume",
     ),
     "Cells that follow the ground": (
-        "linear fields and rigid translation; slabs and spreading blocks on planes; V channels, walls, a cliff",
-        "FollowingCells FollowingPlane FollowingTerrain",
+        "linear fields and rigid translation; slabs and spreading blocks on planes; V channels, walls, a cliff; the "
+        "default viscosity",
+        "FollowingCells FollowingPlane FollowingTerrain DefaultViscosity",
     ),
     "Spreading and collapse": (
         "thin-layer solutions of Ritter and of Savage and Hutter; laboratory experiments with bars and sand",

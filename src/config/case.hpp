@@ -141,9 +141,10 @@ struct Material {
   double cohesion = 0, residual_cohesion = 0;       // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
   double softening_strain = 0, softening_slip = 0;  // eps_c, s_c [m]: softening uses the one that is not 0
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
-  bool gaps_close_first = true;       // separated material carries no stress until its gap has closed
-  double viscosity_time = 0;          // s, Kelvin-Voigt
-  double hydraulic_conductivity = 0;  // m/s
+  bool gaps_close_first = true;    // separated material carries no stress until its gap has closed
+  double viscosity_number = 0.01;  // viscosity time over that of a wave across a cell; decides if viscosity_time is NaN
+  double viscosity_time = std::numeric_limits<double>::quiet_NaN();  // s, Kelvin-Voigt
+  double hydraulic_conductivity = 0;                                 // m/s
 };
 
 // Quantity of a release: a number, an attribute of its polygons, or a raster. A thickness may also be the difference

@@ -354,7 +354,7 @@ poisson_ratio = 0.2
 friction_angle = 35.0
 cohesion = 1.0e3
 gaps_close_first = true  # separated material carries no load until its gap closes
-viscosity_time = 0.02
+viscosity_number = 0.1  # numerical viscosity, proportional to the cell size; with less, loose material swells
 hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays under pressure
 
 # The base. Sliding heats a shear band, its ice melts, friction falls, and the meltwater carries part of the weight.

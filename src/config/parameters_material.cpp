@@ -181,12 +181,20 @@ std::vector<Parameter<Material>> material_parameters() {
                 {.key = "gaps_close_first",
                  .text = "true: material separated by tension carries no compression until its gap has closed; false: "
                          "at once, as in classical plasticity, and a loose mass swells"}),
-      parameter(
-          &Material::viscosity_time,
-          {.key = "viscosity_time",
-           .unit = "s",
-           .range = at_least(0),
-           .text = "Kelvin-Voigt viscosity time: viscous stress divided by elastic stress rate; 0: no viscosity"}),
+      parameter(&Material::viscosity_number,
+                {.key = "viscosity_number",
+                 .range = at_least(0),
+                 .text = "numerical viscosity: viscosity time divided by the time grid.cell sqrt(rho_S/(lambda + 2 G)) "
+                         "of an elastic wave across a cell; 0: none"})
+          .only_if("when viscosity_time is not given", "viscosity_time",
+                   [](const Case&, const Material& material) { return std::isnan(material.viscosity_time); }),
+      parameter(&Material::viscosity_time,
+                {.key = "viscosity_time",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "physical Kelvin-Voigt viscosity, for any cell size: viscous stress divided by elastic stress "
+                         "rate; 0: none"})
+          .otherwise("viscosity_number times the time of a wave across a cell"),
       parameter(&Material::hydraulic_conductivity, {.key = "hydraulic_conductivity",
                                                     .unit = "m/s",
                                                     .range = at_least(0),

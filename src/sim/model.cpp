@@ -72,15 +72,26 @@ physics::Strength strength_of(const config::Material& material, double cell) {
   return strength;
 }
 
-mpm::MaterialModel make_material(const config::Material& material, double cell, bool deformation) {
+// Without viscosity_time, `viscosity_number` times the time that an elastic wave in rock takes across a cell [s]; 0 if
+// the case has no mechanics.
+double viscosity_time_of(const config::Material& material, const physics::Elastic& elastic,
+                         const config::Case& parameters) {
+  if (!std::isnan(material.viscosity_time)) {
+    return material.viscosity_time;
+  }
+  const double wave_speed = std::sqrt(static_cast<double>(elastic.p_wave_modulus()) / parameters.phases.rock_density);
+  return wave_speed > 0.0 ? material.viscosity_number * parameters.grid.cell / wave_speed : 0.0;
+}
+
+mpm::MaterialModel make_material(const config::Material& material, const config::Case& parameters) {
   mpm::MaterialModel model;
   model.elastic = physics::Elastic::from_young_poisson(static_cast<Real>(material.youngs_modulus),
                                                        static_cast<Real>(material.poisson_ratio));
   model.gaps_close_first = material.gaps_close_first;
-  model.viscosity_time = static_cast<Real>(material.viscosity_time);
+  model.viscosity_time = static_cast<Real>(viscosity_time_of(material, model.elastic, parameters));
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
-  if (material.law == config::LawKind::mohr_coulomb && deformation) {
-    const physics::Strength strength = strength_of(material, cell);
+  if (material.law == config::LawKind::mohr_coulomb && parameters.mechanisms.deformation) {
+    const physics::Strength strength = strength_of(material, parameters.grid.cell);
     if (strength.residual_friction_angle < strength.friction_angle) {
       model.law = physics::MohrCoulomb<true>::make(model.elastic, strength);
     } else {
@@ -246,41 +257,37 @@ std::optional<terrain::Polyline> make_profile(const config::Case& parameters, co
 
 template <int Dim>
 std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& parameters, const config::Site& site,
-                                                         const Vector<double, Dim>& origin,
-                                                         const std::optional<terrain::Polyline>& profile,
-                                                         const mpm::SectionWidth& width) {
+                                                         const Model<Dim>& model) {
   if constexpr (Dim == 3) {
     if (parameters.terrain.kind == config::TerrainKind::dem) {
       THAWSLIDE_ASSERT(site.ground != nullptr, "{}: no raster was read from {}", parameters.name,
                        parameters.terrain.file);
       Raster points = *site.ground;
-      points.x -= origin[0];
-      points.y -= origin[1];
+      points.x -= model.origin[0];
+      points.y -= model.origin[1];
       for (double& height : points.values) {
-        height -= origin[2];
+        height -= model.origin[2];
       }
       return std::make_shared<terrain::HeightField>(std::move(points));
     }
   }
-  if (!profile) {
+  if (!model.profile) {
     return nullptr;
   }
   if (parameters.terrain.form == config::TerrainForm::rigid_points) {
-    return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, 0.5 * parameters.grid.cell,
-                                                          parameters.terrain.layers, width);
+    return std::make_shared<terrain::ProfileSurface<Dim>>(*model.profile, 0.5 * parameters.grid.cell,
+                                                          parameters.terrain.layers, model.motion.width);
   }
-  return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, width);
+  return std::make_shared<terrain::ProfileSurface<Dim>>(*model.profile, model.motion.width);
 }
 
 // Makes the cells of the grid follow the ground. The layers of nodes have no end along the vertical.
 template <int Dim>
-void follow_ground(const config::Case& parameters, const mpm::SectionWidth& width, Model<Dim>& model) {
-  typename terrain::Surface<Dim>::Point extent;
-  for (int a = 0; a + 1 < Dim; ++a) {
-    extent[a] = static_cast<double>(model.constraints.extent[a]);
-  }
+void follow_ground(const config::Case& parameters, Model<Dim>& model) {
+  const typename terrain::Surface<Dim>::Point extent =
+      model.constraints.extent.template head<Dim - 1>().template cast<double>();
   model.following = std::make_shared<terrain::FollowingGround<Dim>>(model.ground, parameters.grid.cell, extent,
-                                                                    model.motion.sizes, width);
+                                                                    model.motion.sizes, model.motion.width);
   model.ground = model.following;
   model.constraints.faces[2 * (Dim - 1)] = model.constraints.faces[2 * Dim - 1] = config::BoundaryKind::open;
   model.motion.sides.lower[Dim - 1] = model.motion.sides.upper[Dim - 1] = mpm::PrescribedSides<Dim>::none;
@@ -347,7 +354,7 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
     model.material_names.push_back(name);
-    model.motion.materials.push_back(make_material(material, parameters.grid.cell, parameters.mechanisms.deformation));
+    model.motion.materials.push_back(make_material(material, parameters));
     const bool is_free = material.gaps_close_first && physics::gap_is_free(strength_of(material, parameters.grid.cell));
     model.free_gaps.push_back(is_free ? Real(1) : Real(0));
   }
@@ -375,12 +382,9 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
         physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
-  const auto width = parameters.general.width.varies()
-                         ? mpm::SectionWidth(parameters.general.width.table, model.origin[0])
-                         : mpm::SectionWidth();
-  model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile, width);
+  model.ground = make_ground(parameters, site, model);
   if (parameters.grid.follows_terrain) {
-    follow_ground(parameters, width, model);
+    follow_ground(parameters, model);
   }
   model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);

@@ -204,8 +204,8 @@ std::string Simulation<Dim>::energy_warning() const {
   }
   return fmt::format(
       "warning: by t = {:.6g} s the time steps have created {:.3g} % of all energy, gradually and without a physical "
-      "cause. The results from here on are not reliable. Set a viscosity_time (0.001 to 0.02 s) in materials without "
-      "viscosity, or a smaller time.step",
+      "cause. The results from here on are not reliable. Set a larger viscosity_number or viscosity_time of the "
+      "material, or a smaller time.step",
       time_, 100.0 * monitor_.made_fraction);
 }
 

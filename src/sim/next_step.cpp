@@ -19,13 +19,12 @@ std::string advice_on(LimitKind kind) {
       return "Waves are faster in lighter material: the particle has expanded. Remove such particles "
              "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
-      return "Try a smaller viscosity_time in the material. Its limit falls with the square of the wave speed, which "
-             "grows in separated material. Alternatively, remove such particles with guards.volume = \"remove\" and a "
-             "guards.largest_volume.";
+      return "Try a smaller viscosity_number or viscosity_time of the material. Its limit falls with the square of the "
+             "wave speed, which grows in separated material. Alternatively, remove such particles with "
+             "guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::particle_speed:
-      return "The particle detached from the flow, or the run became unstable: try half of time.safety, or "
-             "viscosity_time in "
-             "the material.";
+      return "The particle detached from the flow, or the run became unstable: try half of time.safety, or a larger "
+             "viscosity_number or viscosity_time of the material.";
     case LimitKind::conduction:
     case LimitKind::seepage:
       return "The band has become thin, or its hydraulic conductivity is large: try a larger band.thickness, or "

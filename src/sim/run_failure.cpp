@@ -216,8 +216,8 @@ std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
   }
   return fmt::format(
       "Likely cause: the step is too long for the material, the material is too soft for its load, or it has "
-      "separated. Try half of {}, a viscosity_time in the material, or mechanics.transfer = \"blend\" with "
-      "mechanics.pic_fraction = 0.02.",
+      "separated. Try half of {}, a larger viscosity_number or viscosity_time of the material, or "
+      "mechanics.transfer = \"blend\" with mechanics.pic_fraction = 0.02.",
       step_to_halve());
 }
 
@@ -250,8 +250,10 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
   const std::string speeds = fmt::format("It moves at {} m/s{}, the slide at {} m/s on average. ", rounded_text(own, 3),
                                          towards, rounded_text(mean, 3));
   if (own > runaway * mean) {
-    return fmt::format("{}Likely cause: it detached from the flow; try half of {}, or viscosity_time in the material.",
-                       speeds, step_to_halve());
+    return fmt::format(
+        "{}Likely cause: it detached from the flow; try half of {}, or a larger viscosity_number or viscosity_time of "
+        "the material.",
+        speeds, step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
   const int exit_axis =

@@ -42,9 +42,10 @@ std::string wave_text(const std::string& material, double cell, const std::strin
                       double viscosity_time) {
   if (viscosity_rules(cell, speeds, viscosity_time)) {
     return fmt::format("the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {} m/s) on {}",
-                       material, viscosity_time, rounded_text(speeds.viscous, 3), on_cells);
+                       material, rounded_text(viscosity_time, 3), rounded_text(speeds.viscous, 3), on_cells);
   }
-  const std::string viscosity = viscosity_time > 0.0 ? fmt::format(", viscosity {} s", viscosity_time) : "";
+  const std::string viscosity =
+      viscosity_time > 0.0 ? fmt::format(", viscosity {} s", rounded_text(viscosity_time, 3)) : "";
   return fmt::format("the elastic wave of material '{}' ({} m/s{}) on {}", material, rounded_text(speeds.elastic, 3),
                      viscosity, on_cells);
 }

@@ -70,8 +70,8 @@ def test_a_step_too_long_for_the_load_is_named_as_cause(thawslide: Program, smal
         r"cause, \S+ % of all energy so far \(guards\.energy_growth allows 25 %\)\. The fastest particle, \d+ of body "
         r"'block' at \(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s on average\. Likely cause: the step is too "
         r"long for the material, the material is too soft for its load, or it has separated\. Try half of time\.step, "
-        r"a viscosity_time in the material, or mechanics\.transfer = \"blend\" with mechanics\.pic_fraction = "
-        r"0\.02\.\n",
+        r"a larger viscosity_number or viscosity_time of the material, or mechanics\.transfer = \"blend\" with "
+        r"mechanics\.pic_fraction = 0\.02\.\n",
         message,
     ), message
     reported = expect_failure(thawslide, small_case, tmp_path / "run", **FALL, guards__energy_growth="inf")

@@ -150,12 +150,13 @@ def test_resume_keeps_removed_particles(ran: Ran, thawslide: Program, interrupte
 
 def test_slow_energy_growth_is_reported_once(ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     slow = sets(time__end=30, time__history_interval=1, time__output_interval=10, guards__energy_growth=0.02)
+    undamped = sets(material__rock__viscosity_number=0)
     slow += sets(body__block__max="[15.0,5.0]")
-    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow)
+    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow, *undamped)
     assert outcome.returncode == 0, outcome.stderr
     message = outcome.stdout + outcome.stderr
     assert message.count("gradually and without a physical cause") == 1
-    assert "viscosity_time" in message
+    assert "viscosity_number" in message
     slow += sets(material__rock__viscosity_time=0.002)
     damped = thawslide("run", small_case, "--output", tmp_path / "damped", *slow)
     assert damped.returncode == 0

@@ -14,8 +14,8 @@ a key misspelt
     'youngs_modulus = ...' to [material.rock]: Young's modulus, a number, > 0 [Pa].
     21:1: key 'material.rock.young_modulus' is not known in [material.rock]; did you mean 'youngs_modulus'? Allowed
     here: law, youngs_modulus, poisson_ratio, friction_angle, dilation_angle, cohesion, residual_cohesion,
-    residual_friction_angle, softening_strain, softening_slip, tension_cutoff, gaps_close_first, viscosity_time,
-    hydraulic_conductivity.
+    residual_friction_angle, softening_strain, softening_slip, tension_cutoff, gaps_close_first, viscosity_number,
+    viscosity_time, hydraulic_conductivity.
 
 a key left out
   step = 0.001| ->

@@ -90,7 +90,7 @@ inline const std::string release_on_dem = one_key_per_line(R"(
 [terrain] type = "dem" | file = "inputs/dem.tif" | crs = "EPSG:31287" | resample = 10.0 | smooth = 2.5
 [maps] cell = 20.0 | arrival_thickness = 0.5 | path = "inputs/path.geojson"
 [probe.gauge] line = "inputs/section.geojson"
-[material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25
+[material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25 | viscosity_number = 0.5
 [body.block] material = "rock" | shape = "release" | release = "inputs/release.shp" |
   polygons = ["upper \"part\"", "lower"] | name_attribute = "part" | thickness = { raster = "inputs/thickness.tif" } |
   thickness_along = "normal" | placement = "cut" | taper = 5.0 | largest_volume = 300000000.0 |

@@ -35,7 +35,8 @@ const Variant two_blocks =
     "material.free.youngs_modulus=5e8; material.free.poisson_ratio=0.2; material.free.friction_angle=30; "
     "material.free.cohesion=1e5; material.free.gaps_close_first=true; material.loose.law=mohr_coulomb; "
     "material.loose.youngs_modulus=5e8; material.loose.poisson_ratio=0.2; material.loose.friction_angle=30; "
-    "material.loose.cohesion=1e5; material.loose.gaps_close_first=false; body.block.material=free; "
+    "material.loose.cohesion=1e5; material.free.viscosity_time=0; material.loose.viscosity_time=0; "
+    "material.loose.gaps_close_first=false; body.block.material=free; "
     "body.block.max=[50,50]; body.second.material=loose; body.second.min=[150,0]; body.second.max=[200,50]";
 
 constexpr double opening = 3.0;  // volume over that of the closed gap

@@ -26,6 +26,7 @@ const std::map<std::string, Sets>& all_bases() {
       {"free",
        "case.gravity=0.0; time.end=1.0; time.step=0.002; grid.cell=1.0; grid.min=[0.0, 0.0]; grid.max=[40.0, 40.0]; "
        "material.rock.law='elastic'; material.rock.youngs_modulus=1e8; material.rock.poisson_ratio=0.25; "
+       "material.rock.viscosity_time=0; "
        "body.block.material='rock'; body.block.min=[17.3, 17.6]; body.block.max=[22.3, 22.6]; "
        "mechanics.initial_stress='none'; heat.enabled=false; pressure.enabled=false"},
       {"slab",
@@ -63,7 +64,8 @@ const std::map<std::string, Sets>& all_bases() {
                "time.end=6.0; time.step=0.0035; grid.cell=0.625; grid.min=[0.0, -2.5]; grid.max=[140.0, 60.0]; "
                "grid.boundary.x_min='roller'; terrain.type='flat'; material.sand.law='mohr_coulomb'; "
                "material.sand.youngs_modulus=2e7; material.sand.poisson_ratio=0.3; material.sand.friction_angle=36.93; "
-               "material.sand.cohesion=0.0; material.sand.gaps_close_first=true; body.column.material='sand'; "
+               "material.sand.cohesion=0.0; material.sand.gaps_close_first=true; material.sand.viscosity_time=0; "
+               "body.column.material='sand'; "
                "body.column.min=[0.0, 0.0]; body.column.max=[10.0, 10.0]; basal.friction='constant'; "
                "basal.friction_angle=31.0")},
       {"release",
@@ -72,7 +74,8 @@ const std::map<std::string, Sets>& all_bases() {
                 "grid.max=[100.0, 100.0, 200.0]; terrain.type='dem'; terrain.file='dem.tif'; "
                 "material.debris.law='mohr_coulomb'; material.debris.youngs_modulus=2e7; "
                 "material.debris.poisson_ratio=0.3; material.debris.friction_angle=30.0; material.debris.cohesion=0.0; "
-                "material.debris.gaps_close_first=true; body.slide.material='debris'; body.slide.shape='release'; "
+                "material.debris.gaps_close_first=true; material.debris.viscosity_time=0; "
+                "body.slide.material='debris'; body.slide.shape='release'; "
                 "body.slide.thickness={ raster = 'thickness.tif' }; basal.friction='constant'; "
                 "basal.friction_angle=15.0")},
       {"profile",
@@ -86,9 +89,11 @@ const std::map<std::string, Sets>& all_bases() {
        "case.gravity_tilt=35.0; time.end=10.0; time.step=0.002; grid.cell=1.0; grid.min=[-4.0, -4.0]; "
        "grid.max=[40.0, 20.0]; terrain.type='flat'; material.frozen.law='mohr_coulomb'; "
        "material.frozen.youngs_modulus=2e8; material.frozen.poisson_ratio=0.3; material.frozen.friction_angle=35.0; "
-       "material.frozen.cohesion=0.0; material.frozen.hydraulic_conductivity=1e-9; material.melted.law='mohr_coulomb'; "
+       "material.frozen.cohesion=0.0; material.frozen.viscosity_time=0; material.frozen.hydraulic_conductivity=1e-9; "
+       "material.melted.law='mohr_coulomb'; "
        "material.melted.youngs_modulus=1e8; material.melted.poisson_ratio=0.2; material.melted.friction_angle=30.0; "
-       "material.melted.cohesion=0.0; material.melted.residual_cohesion=0.0; material.melted.softening_strain=1.0; "
+       "material.melted.cohesion=0.0; material.melted.viscosity_time=0; material.melted.residual_cohesion=0.0; "
+       "material.melted.softening_strain=1.0; "
        "material.melted.tension_cutoff=1e5; material.melted.hydraulic_conductivity=1e-10; body.left.material='frozen'; "
        "body.left.min=[0.0, 0.0]; body.left.max=[7.0, 5.0]; body.left.temperature=-0.5; body.left.porosity=0.375; "
        "body.right.material='melted'; body.right.min=[7.0, 0.0]; body.right.max=[11.3, 4.1]; "

@@ -64,7 +64,6 @@ youngs_modulus = 5.0e7
 poisson_ratio = 0.2
 friction_angle = 35.0
 cohesion = 0.0
-viscosity_time = 0.004
 [basal]
 friction = "constant"
 friction_angle = 1.14576283817255  # coefficient 0.02

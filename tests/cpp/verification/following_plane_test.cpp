@@ -18,7 +18,7 @@ using sim::Simulation;
 Spread spread_of_block(const Incline& plane, double cell) {
   Simulation<2> simulation(body_on_plane(
       plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
-      {fmt::format("case.gravity_tilt={}", -plane.degrees)}));
+      {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.grains.viscosity_time=0.004"}));
   run_until(simulation, 16.0);
   return Spread(simulation, plane);
 }
