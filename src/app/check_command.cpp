@@ -35,7 +35,7 @@ run::GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& 
       simulation.step(simulation.next_step(end));  // copies particles to the GPU
       records.after_step(simulation);
       static_cast<void>(records.history_row(simulation));  // allocates memory on the GPU as well
-      static_cast<void>(simulation.front());
+      static_cast<void>(simulation.front(simulation.moved_mass()));
     }
     if (!(simulation.time() < end)) {
       facts.unavailable_reason = "the run ends before a step on it could be timed";

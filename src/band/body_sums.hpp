@@ -5,6 +5,7 @@
 
 #include "base/exact_sum.hpp"
 #include "base/linear.hpp"
+#include "mpm/front.hpp"
 #include "physics/mixture.hpp"
 #include "physics/pore_water.hpp"
 
@@ -20,6 +21,8 @@ struct BodySums {
   Real gas = 0;                                               // void in the pores of the band's own material [m3]
   Real initial_volume = 0, volume_change = 0;                 // at t = 0 or on joining; change since then [m3]
   Real largest_speed2 = 0;                                    // squared [m2/s2]
+  Real moved_mass = 0;                                        // farther than SumsOfParticle::moved_distance [kg]
+  mpm::BodySet moved_bodies;                                  // with such mass
   // Weighted by mass: path length of particles [kg m] and plastic strain [kg].
   Real displacement = 0, plastic_strain = 0;
   // Sums over particles in the band: mass [kg], temperature [kg C], saturation [kg] and pore pressure [kg Pa].
@@ -42,6 +45,8 @@ struct BodySums {
       momentum[a] += part.momentum[a];
     }
     largest_speed2 = part.largest_speed2 > largest_speed2 ? part.largest_speed2 : largest_speed2;
+    moved_mass += part.moved_mass;
+    moved_bodies |= part.moved_bodies;
     displacement += part.displacement;
     plastic_strain += part.plastic_strain;
     band_mass += part.band_mass;
@@ -60,6 +65,7 @@ struct SumsOfParticle {
   bool latent;          // melting consumes latent heat
   bool current_masses;  // heat content uses masses from the current porosity and volume, as published
   bool melt_contracts;  // melting leaves a void
+  Real moved_distance;  // [m]
 
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD BodySums<Dim> operator()(const Particles& particles, std::uint32_t p) const {
@@ -72,6 +78,10 @@ struct SumsOfParticle {
       sums.largest_speed2 += velocity * velocity;
       sums.kinetic += Real(0.5) * mass * velocity * velocity;
       sums.potential -= mass * gravity[a] * (particles.position(p, a) + origin[a]);
+    }
+    if (mpm::has_moved<Dim>(particles, p, moved_distance)) {
+      sums.moved_mass = mass;
+      sums.moved_bodies.add(static_cast<std::size_t>(particles.body(p)));
     }
     sums.displacement = mass * particles.path_length(p);
     sums.plastic_strain = mass * particles.plastic_strain(p);

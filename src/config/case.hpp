@@ -73,6 +73,7 @@ struct Time {
   double history_interval = 0.0;  // s between history rows; 0: every step
   double stop_at_rest = -1.0;     // m/s, maximum speed at rest; 0 or not specified: the run continues to time.end
   double rest_time = 10.0;        // s, minimum duration of rest
+  double moved_distance = 1.0;    // m, beyond which mass counts for front, runout and travel distance
 };
 
 struct Grid {

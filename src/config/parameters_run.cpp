@@ -71,6 +71,12 @@ std::vector<Parameter<Time>> time_parameters() {
           {.key = "rest_time", .unit = "s", .range = at_least(0), .text = "duration of rest after which the run ends"})
           .only_if("when time.stop_at_rest is given", "stop_at_rest",
                    [](const Case&, const Time& time) { return time.stop_at_rest >= 0.0; }),
+      parameter(&Time::moved_distance,
+                {.key = "moved_distance",
+                 .unit = "m",
+                 .range = at_least(0),
+                 .text = "distance beyond which mass has moved: only such mass counts for front, runout, travel "
+                         "distance and rest; all mass while there is none. Set it below the size of small slides"}),
   };
 }
 

@@ -150,12 +150,13 @@ bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next
   }
   if (simulation.ends_at_rest()) {
     if (changes.empty() || is_end_alone) {
-      observer.line("{} has come to rest at {:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0",
-                    folder.string(), simulation.time());
+      observer.line("{} has {} {:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0", folder.string(),
+                    simulation.moved_mass().distance < Real(0) ? "not moved until" : "come to rest at",
+                    simulation.time());
       return false;
     }
     simulation.restart_rest_time();
-  } else if (next.earlier.message.rfind(sim::at_rest, 0) != 0 &&
+  } else if (next.earlier.message.rfind(sim::at_rest, 0) != 0 && next.earlier.message.rfind(sim::not_moved, 0) != 0 &&
              !has_reached_end(simulation.time(), simulation.last_step(), next.earlier_end) && !falls_back &&
              !next.earlier.message.empty()) {
     throw UserError(

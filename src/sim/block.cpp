@@ -156,7 +156,7 @@ class Block {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
-    direction_ = direction_at_start(model, particles, parameters.grid.cell);
+    direction_ = direction_of(bodies_at_start(model, particles, parameters.grid.cell), {});
   }
 
   void step(double dt) {

@@ -34,8 +34,13 @@ BodySums<Dim> Simulation<Dim>::sum_over_particles(const std::uint8_t* marked) co
 
 template <int Dim>
 band::SumsOfParticle<Dim> Simulation<Dim>::sums_of_particle() const {
-  return {model_.motion.gravity,   model_.origin.template cast<Real>(), model_.motion.phases,
-          parameters_.heat.latent, model_.band.current_masses,          model_.band.melt_contracts};
+  return {model_.motion.gravity,
+          model_.origin.template cast<Real>(),
+          model_.motion.phases,
+          parameters_.heat.latent,
+          model_.band.current_masses,
+          model_.band.melt_contracts,
+          static_cast<Real>(parameters_.time.moved_distance)};
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                 \

@@ -193,46 +193,66 @@ std::string warning_of_path(const config::Case& parameters, const config::Site& 
 }
 
 template <int Dim>
-double direction_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& particles, double cell) {
-  if (Dim == 3) {
-    return 1.0;
-  }
-  Departure departure;
-  Extent extent;
+std::vector<BodyAtStart> bodies_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& particles, double cell) {
+  std::vector<BodyAtStart> bodies(model.body_names.size());
+  std::vector<Departure> departures(bodies.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto number = static_cast<std::size_t>(particles.body(p));
     const auto mass = static_cast<double>(particles.mass(p)), speed = static_cast<double>(particles.velocity(p, 0));
+    const auto x = static_cast<double>(particles.position(p, 0)),
+               half = static_cast<double>(model.motion.sizes.half(number)) * cell;
+    BodyAtStart& body = bodies[number];
+    body.mass += mass;
+    body.lower = std::min(body.lower, x - half + model.origin[0]);
+    body.upper = std::max(body.upper, x + half + model.origin[0]);
     typename terrain::Surface<Dim>::Point point;
     for (int a = 0; a + 1 < Dim; ++a) {
       point[a] = static_cast<double>(particles.position(p, a));
     }
-    extent.add(static_cast<double>(particles.position(p, 0)), 0.0);
-    departure.add_momentum(mass, speed, std::abs(speed));
-    departure.add_force(mass, model.ground ? model.ground->gradient(point, cell)[0] : 0.0,
-                        static_cast<double>(model.motion.gravity[0]),
-                        -static_cast<double>(model.motion.gravity[Dim - 1]));
+    departures[number].add_momentum(mass, speed, std::abs(speed));
+    departures[number].add_force(mass, model.ground ? model.ground->gradient(point, cell)[0] : 0.0,
+                                 static_cast<double>(model.motion.gravity[0]),
+                                 -static_cast<double>(model.motion.gravity[Dim - 1]));
   }
-  return departure.direction(extent.length()) < 0 ? -1.0 : 1.0;
+  for (std::size_t number = 0; number < bodies.size() && Dim == 2; ++number) {
+    BodyAtStart& body = bodies[number];
+    body.direction = departures[number].direction(body.upper - body.lower) < 0 ? -1.0 : 1.0;
+  }
+  return bodies;
+}
+
+double direction_of(const std::vector<BodyAtStart>& bodies, const MovedMass& moved) {
+  double mass = 0.0;
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    mass += moved.has(number) ? bodies[number].direction * bodies[number].mass : 0.0;
+  }
+  return mass < 0.0 ? -1.0 : 1.0;
 }
 
 template <int Dim>
-double front_along_x(const Simulation<Dim>& simulation, double direction) {
-  const PathLine towards_lower_x(config::Polyline2{{0.0, 0.0}, {-1.0, 0.0}});
-  return simulation.front(direction < 0.0 ? towards_lower_x.view() : LineView{}).position[0];
-}
-
-template <int Dim>
-double direction_along_x(const Simulation<Dim>& simulation) {
+FrontAlongX front_along_x(const Simulation<Dim>& simulation) {
+  const std::vector<BodyAtStart>& bodies = simulation.bodies_at_start();
+  const MovedMass moved = simulation.moved_mass();
+  const double at_start = direction_of(bodies, moved);
+  double rear = HUGE_VAL;
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    if (moved.has(number) && bodies[number].mass > 0.0) {
+      rear = std::min(rear, at_start < 0.0 ? -bodies[number].upper : bodies[number].lower);
+    }
+  }
+  rear *= at_start;
+  const double ahead = simulation.front(moved).position[0];
   if (Dim == 3) {
-    return 1.0;
+    return {1.0, ahead, rear};
   }
-  const double middle = 0.5 * (front_along_x(simulation, 1.0) + front_along_x(simulation, -1.0));
-  return middle < simulation.rear_at_start() ? -1.0 : 1.0;
+  const PathLine towards_lower_x(config::Polyline2{{0.0, 0.0}, {-1.0, 0.0}});
+  const double behind = simulation.front(moved, towards_lower_x.view()).position[0];
+  return 0.5 * (ahead + behind) < rear ? FrontAlongX{-1.0, behind, rear} : FrontAlongX{1.0, ahead, rear};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                \
-  template double direction_at_start<Dim>(const Model<Dim>&, const mpm::Particles<Dim>&, double); \
-  template double direction_along_x<Dim>(const Simulation<Dim>&);                                 \
-  template double front_along_x<Dim>(const Simulation<Dim>&, double);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                               \
+  template std::vector<BodyAtStart> bodies_at_start<Dim>(const Model<Dim>&, const mpm::Particles<Dim>&, double); \
+  template FrontAlongX front_along_x<Dim>(const Simulation<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -15,19 +15,24 @@
 
 namespace thawslide::sim {
 
-// Returns 1 or -1 (towards +x or -x) for bodies at t = 0; 1 in 3D and if there is no direction. cell: of the grid [m],
-// over which slopes are averaged.
+// Bodies at t = 0, by number. cell: of the grid [m], over which slopes are averaged. In 3D, and without a direction,
+// bodies leave towards +x.
 template <int Dim>
-[[nodiscard]] double direction_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& particles, double cell);
+[[nodiscard]] std::vector<BodyAtStart> bodies_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& particles,
+                                                       double cell);
 
-// The same for a moving slide, which lies ahead of its initial rear end (Simulation::rear_at_start). The direction of a
-// slide that moved uphill and returned past that end is reversed there.
-template <int Dim>
-[[nodiscard]] double direction_along_x(const Simulation<Dim>& simulation);
+// Direction of bodies together, 1 or -1: that of the greater mass.
+[[nodiscard]] double direction_of(const std::vector<BodyAtStart>& bodies, const MovedMass& moved);
 
-// In 2D: x coordinate that contains 99.5 % of the mass behind it, in that direction [m].
+// Front of the mass that has moved, along the x axis.
+struct FrontAlongX {
+  double direction;  // of the slide, 1 or -1: away from the rear
+  double position;   // x coordinate that has 99.5 % of the mass behind it [m]
+  double rear;       // x coordinate of the rear end of the same bodies at t = 0 [m]
+};
+// The direction of a slide that moved uphill and returned past its rear at t = 0 is reversed there.
 template <int Dim>
-[[nodiscard]] double front_along_x(const Simulation<Dim>& simulation, double direction);
+[[nodiscard]] FrontAlongX front_along_x(const Simulation<Dim>& simulation);
 
 // Reverses the site's path if its bodies leave against it. If there is no direction, the end nearer to the bodies
 // becomes the first one; without a body, the higher end. Then reverses each probe line that the path crosses from right

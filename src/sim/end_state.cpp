@@ -27,6 +27,7 @@ EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
   const BodySums<Dim> sums = simulation.sum_over_body();
   state.is_known = parameters.mechanics.enabled;
   state.at_rest = state.is_known && simulation.is_at_rest();
+  state.has_moved = simulation.moved_mass().distance >= Real(0);
   state.rest_since = state.at_rest ? simulation.rest_since() : unknown;
   state.mean_velocity = sums.momentum.norm() / static_cast<double>(sums.mass);
   state.dilation_volume = width * sums.volume_change;
@@ -44,9 +45,10 @@ std::vector<std::pair<std::string, double>> named(const EndState& state) {
 
 std::string when_text(const EndState& state) {
   return fmt::format("at {} s{}", rounded_text(state.time, 4),
-                     !state.is_known ? ""
-                     : state.at_rest ? ", at rest"
-                                     : ", not at rest");
+                     !state.is_known    ? ""
+                     : !state.at_rest   ? ", not at rest"
+                     : !state.has_moved ? ", has not moved"
+                                        : ", at rest");
 }
 
 std::vector<std::string> warnings_of(const EndState& state, bool is_over) {

@@ -21,6 +21,7 @@ struct EndState {
   double time = 0.0;               // [s]
   bool is_known = false;           // of the motion; false if no slide is left, a device failed, or nothing moves
   bool at_rest = false;            // Simulation::is_at_rest
+  bool has_moved = false;          // by more than time.moved_distance
   double rest_since = 0.0;         // [s]; NaN while moving
   std::string rest_rule;           // criterion of rest as text
   double mean_velocity = 0.0;      // magnitude of the mean velocity, as in the history [m/s]
@@ -39,7 +40,7 @@ template <int Dim>
 // Name with unit and value, for run.json.
 [[nodiscard]] std::vector<std::pair<std::string, double>> named(const EndState& state);
 
-// Label of the last state in map names: "at 60 s, at rest" or "at 60 s, not at rest".
+// Label of the last state in map names: "at 60 s, at rest", "at 60 s, not at rest" or "at 60 s, has not moved".
 [[nodiscard]] std::string when_text(const EndState& state);
 
 // Complete sentences; empty if there is no warning. is_over: the run has ended.

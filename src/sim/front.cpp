@@ -9,16 +9,23 @@
 namespace thawslide::sim {
 
 template <int Dim>
-mpm::PathSample Simulation<Dim>::front(const LineView& line) const {
+MovedMass Simulation<Dim>::moved_mass() const {
+  const BodySums<Dim> sums = sum_over_body();
+  return sums.moved_mass > Real(0) ? MovedMass{static_cast<Real>(parameters_.time.moved_distance),
+                                               static_cast<double>(sums.moved_mass), sums.moved_bodies}
+                                   : MovedMass{Real(-1), static_cast<double>(sums.mass), {}};
+}
+
+template <int Dim>
+mpm::PathSample Simulation<Dim>::front(const MovedMass& mass, const LineView& line) const {
   THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());
-  mpm::Transformation<Dim> path{line};
+  mpm::Transformation<Dim> path{line, {}, mass.distance};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     path.origin[a] = model_.origin[static_cast<int>(a)];
   }
-  const auto mass = static_cast<double>(sum_over_body().mass);
   if (device_solver_) {
     mpm::PathSample found;
-    on_device([&] { found = device_solver_->front(path, mass); });
+    on_device([&] { found = device_solver_->front(path, mass.mass); });
     return found;
   }
   const std::vector<std::uint32_t>& order = grid_.order();
@@ -27,10 +34,12 @@ mpm::PathSample Simulation<Dim>::front(const LineView& line) const {
     const mpm::PathSample one = path.of(particles_, order[rank]);
     masses[rank] = {one.along, one.mass, rank};
   });
-  return path.of(particles_, order[front_of(masses, mass).rank]);
+  return path.of(particles_, order[front_of(masses, mass.mass).rank]);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim) template mpm::PathSample Simulation<Dim>::front(const LineView&) const;
+#define THAWSLIDE_INSTANTIATE(Dim)                        \
+  template MovedMass Simulation<Dim>::moved_mass() const; \
+  template mpm::PathSample Simulation<Dim>::front(const MovedMass&, const LineView&) const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -161,13 +161,13 @@ void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, do
 
 template <int Dim>
 double front_position(const Simulation<Dim>& simulation) {
-  return front_along_x(simulation, direction_along_x(simulation));
+  return front_along_x(simulation).position;
 }
 
 template <int Dim>
 HistoryRow history_row(const Simulation<Dim>& simulation) {
-  const double direction = direction_along_x(simulation), front = front_along_x(simulation, direction);
-  return history_row(simulation, {front, direction * (front - simulation.rear_at_start())});
+  const FrontAlongX front = front_along_x(simulation);
+  return history_row(simulation, {front.position, front.direction * (front.position - front.rear)});
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "config/scheduled_events.hpp"
 #include "device/solver.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
@@ -157,7 +158,8 @@ void Simulation<Dim>::update_rest(const mpm::MonitorSums& seen) {
     // The criterion of rest used another speed so far.
     monitor_.rest_since = -1.0;
     monitor_.has_moved =
-        has_moved_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
+        has_moved_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.time.moved_distance)) ? 1.0
+                                                                                                                : 0.0;
   }
   if (moves) {
     monitor_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_sampled;
@@ -173,8 +175,8 @@ bool Simulation<Dim>::is_at_rest() const {
   const double needed = monitor_.rest_since > 0.0
                             ? times.rest_time
                             : rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
-  return monitor_.rest_since >= 0.0 && step_number_ >= watch_interval &&
-         time_ - monitor_.rest_since >= needed * (1.0 - 1e-9);
+  const double from = std::max(monitor_.rest_since, config::last_scheduled_event(parameters_));
+  return monitor_.rest_since >= 0.0 && step_number_ >= watch_interval && time_ - from >= needed * (1.0 - 1e-9);
 }
 
 template <int Dim>
@@ -188,8 +190,10 @@ std::string Simulation<Dim>::rest_rule() const {
   const double from_start = rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
   const std::string or_from_start =
       from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
-  return fmt::format("for {:g} s{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
-                     or_from_start, 100.0 * moving_fraction_at_rest, rest_speed(times));
+  const double event = config::last_scheduled_event(parameters_);
+  const std::string after_event = event > 0.0 ? fmt::format(" after the last scheduled change at {:g} s", event) : "";
+  return fmt::format("for {:g} s{}{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
+                     or_from_start, after_event, 100.0 * moving_fraction_at_rest, rest_speed(times));
 }
 
 template <int Dim>
@@ -211,6 +215,10 @@ std::string Simulation<Dim>::energy_warning() const {
 
 template <int Dim>
 std::string Simulation<Dim>::rest_text() const {
+  if (moved_mass().distance < Real(0)) {
+    return fmt::format("{}: no part of it by more than {:g} m (time.moved_distance)", not_moved,
+                       parameters_.time.moved_distance);
+  }
   return fmt::format(
       "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
       at_rest, monitor_.rest_since, 100.0 * moving_fraction_at_rest, parameters_.time.stop_at_rest);

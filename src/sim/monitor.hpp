@@ -21,8 +21,9 @@ inline constexpr double moving_fraction_at_rest = 0.005;
 // than a cell in time.rest_time.
 inline constexpr double usual_rest_speed = 0.05;
 
-// Reason reported for a run that ended at rest.
+// Reasons reported for a run that ended at rest.
 inline constexpr const char* at_rest = "the slide is at rest";
+inline constexpr const char* not_moved = "the slide has not moved";
 
 struct RunMonitor {
   double energy_at_start = 0.0;  // elastic energy at t = 0 [J]

@@ -29,17 +29,28 @@ void add_segment(const std::array<double, 2>& from, const std::array<double, 2>&
   const double column = map_grid.column_of(from[0]), row = map_grid.row_of(from[1]);
   const double columns = map_grid.column_of(to[0]) - column, rows = map_grid.row_of(to[1]) - row;
   std::vector<double> fractions{0.0, 1.0};
-  add_crossings(column, column + columns, fractions);
-  add_crossings(row, row + rows, fractions);
+  add_crossings(column - 0.5, column - 0.5 + columns, fractions);
+  add_crossings(row - 0.5, row - 0.5 + rows, fractions);
   std::sort(fractions.begin(), fractions.end());
   for (std::size_t k = 0; k + 1 < fractions.size(); ++k) {
     const double part = fractions[k + 1] - fractions[k], middle = 0.5 * (fractions[k] + fractions[k + 1]);
     if (part > 0.0) {
-      parts.push_back({map_grid.cell_column(column + middle * columns), map_grid.cell_row(row + middle * rows),
-                       part * length, (to[1] - from[1]) / length, (from[0] - to[0]) / length});
+      parts.push_back({column + middle * columns, row + middle * rows, part * length, (to[1] - from[1]) / length,
+                       (from[0] - to[0]) / length});
     }
   }
 }
+
+// Point below a coordinate in cells, the one above it, and the fraction of the way to it.
+struct Between {
+  int below, above;
+  double fraction;
+
+  Between(double cells, int count)
+      : below(std::clamp(static_cast<int>(std::floor(cells - 0.5)), 0, count - 1)),
+        above(std::min(below + 1, count - 1)),
+        fraction(std::clamp(cells - 0.5 - below, 0.0, 1.0)) {}
+};
 
 }  // namespace
 
@@ -53,12 +64,22 @@ std::vector<SectionPart> parts_of_section(const config::Polyline2& line, const M
 
 SectionFlow flow_through(const std::vector<SectionPart>& section, const FlowMaps& maps) {
   SectionFlow flow;
+  const MapGrid& grid = maps.map_grid();
   for (const SectionPart& part : section) {
-    const MapCell& cell = maps.cell(part.column, part.row);
-    const double area = cell.thickness * part.length;
-    flow.area += area;
-    flow.discharge += area * (cell.velocity_x * part.normal_x + cell.velocity_y * part.normal_y);
-    flow.max_thickness = std::max(flow.max_thickness, cell.thickness);
+    const Between column(part.column, grid.columns), row(part.row, grid.rows);
+    double thickness = 0.0, discharge = 0.0;
+    const auto add = [&](double weight, int at_column, int at_row) {
+      const MapCell& cell = maps.cell(at_column, at_row);
+      thickness += weight * cell.thickness;
+      discharge += weight * cell.thickness * (cell.velocity_x * part.normal_x + cell.velocity_y * part.normal_y);
+    };
+    add((1.0 - column.fraction) * (1.0 - row.fraction), column.below, row.below);
+    add(column.fraction * (1.0 - row.fraction), column.above, row.below);
+    add((1.0 - column.fraction) * row.fraction, column.below, row.above);
+    add(column.fraction * row.fraction, column.above, row.above);
+    flow.area += thickness * part.length;
+    flow.discharge += discharge * part.length;
+    flow.max_thickness = std::max(flow.max_thickness, thickness);
   }
   return flow;
 }

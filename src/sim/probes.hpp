@@ -12,9 +12,9 @@
 
 namespace thawslide::sim {
 
-// Part of a cross section in one map cell.
+// Part of a cross section between four points of the maps.
 struct SectionPart {
-  int column, row;
+  double column, row;         // of its middle, in cells as in MapGrid
   double length;              // [m]
   double normal_x, normal_y;  // unit vector across the section, to the right of its direction
 };
@@ -29,9 +29,11 @@ struct SectionFlow {
   [[nodiscard]] double mean_speed() const { return area > 0.0 ? std::abs(discharge) / area : 0.0; }
 };
 
-// Parts of a line in the cells of a map grid, in order. The line must lie over the grid.
+// Parts of a line between the points of a map grid, in order. The line must lie over the grid.
 [[nodiscard]] std::vector<SectionPart> parts_of_section(const config::Polyline2& line, const MapGrid& map_grid);
 
+// Flow where the section lies: thickness and discharge are bilinear between the points of the maps, and constant beyond
+// the outermost ones.
 [[nodiscard]] SectionFlow flow_through(const std::vector<SectionPart>& section, const FlowMaps& maps);
 
 class Probes {

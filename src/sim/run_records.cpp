@@ -34,14 +34,16 @@ mpm::MassMoments mass_moments(const Simulation<3>& simulation) {
                                                    [&](std::uint32_t p) { return mpm::mass_moments_of(particles, p); });
 }
 
-double highest_point(const Simulation<3>& simulation) {
+// Elevation of the highest point of each body [m].
+std::vector<double> highest_points(const Simulation<3>& simulation) {
   const auto& particles = simulation.particles();
   const std::vector<double> halves = half_sizes(simulation);
-  double highest = -HUGE_VAL;
+  std::vector<double> highest(halves.size(), -HUGE_VAL);
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    highest = std::max(highest, particles.position(p, 2) + halves[static_cast<std::size_t>(particles.body(p))]);
+    const auto body = static_cast<std::size_t>(particles.body(p));
+    highest[body] = std::max(highest[body], particles.position(p, 2) + halves[body] + simulation.model().origin[2]);
   }
-  return highest + simulation.model().origin[2];
+  return highest;
 }
 
 // Basal segments in the form that maps need; empty unless the band consists of columns.
@@ -71,11 +73,12 @@ void add_cell(const Raster& raster, int column, int row, config::Polyline2& corn
   }
 }
 
-// Corners that bound all bodies at the start: release outlines, raster cells of releases, and boxes.
-config::Polyline2 corners_at_start(const config::Case& parameters,
-                                   const std::map<std::string, config::Release>& releases) {
-  config::Polyline2 corners;
+// Corners that bound each body at the start: release outlines, raster cells of releases, and boxes.
+std::vector<config::Polyline2> corners_at_start(const config::Case& parameters,
+                                                const std::map<std::string, config::Release>& releases) {
+  std::vector<config::Polyline2> of_bodies;
   for (const auto& [name, body] : parameters.bodies) {
+    config::Polyline2& corners = of_bodies.emplace_back();
     const auto release = releases.find(name);
     if (release == releases.end()) {
       for (const double x : {body.min[0], body.max[0]}) {
@@ -97,7 +100,7 @@ config::Polyline2 corners_at_start(const config::Case& parameters,
       }
     }
   }
-  return corners;
+  return of_bodies;
 }
 
 }  // namespace
@@ -115,6 +118,7 @@ RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& si
                   parameters.maps.arrival_thickness, DrawnArea(parameters, site.releases, map_grid));
     probes_ = Probes(parameters, site.probes, map_grid);
     corners_at_start_ = corners_at_start(parameters, site.releases);
+    tops_at_start_.resize(simulation.model().body_names.size());
     if (path_given_ && given_.empty()) {
       throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
                                   config::location_of(parameters, "maps.path")));
@@ -127,7 +131,7 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->start(simulation.grid(), simulation.particles());
     add_to_path(simulation, mass_moments(simulation));
-    release_top_ = highest_point(simulation);
+    tops_at_start_ = highest_points(simulation);
   }
 }
 
@@ -173,7 +177,7 @@ NamedNumbers RunRecords<Dim>::state() const {
   if (!maps_) {
     return {};
   }
-  return {{"maps", maps_->state()}, {"centre_path", centre_path_.state()}, {"release_top", {release_top_}}};
+  return {{"maps", maps_->state()}, {"centre_path", centre_path_.state()}, {"tops_at_start", tops_at_start_}};
 }
 
 template <int Dim>
@@ -181,7 +185,10 @@ void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
   if (maps_) {
     maps_->restore(block_of(blocks, "maps"));
     centre_path_.restore(block_of(blocks, "centre_path"));
-    release_top_ = StateNumbers(block_of(blocks, "release_top"), "release's top").next();
+    StateNumbers tops(block_of(blocks, "tops_at_start"), "bodies' tops");
+    for (double& top : tops_at_start_) {
+      top = tops.next();
+    }
   }
 }
 
@@ -190,17 +197,18 @@ std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const 
   if (path().empty() || simulation.particle_count() == 0 || simulation.device_has_failed()) {
     return {};
   }
-  const mpm::PathSample foremost = simulation.front(path().view());
-  return Front{foremost.along, foremost.position};
-}
-
-template <int Dim>
-double RunRecords<Dim>::rear_of_release() const {
-  double rear = HUGE_VAL;
-  for (const Point2& corner : corners_at_start_) {
-    rear = std::min(rear, path().project(corner).along);
+  const MovedMass moved = simulation.moved_mass();
+  const mpm::PathSample foremost = simulation.front(moved, path().view());
+  double rear = HUGE_VAL, top = -HUGE_VAL;
+  for (std::size_t body = 0; body < corners_at_start_.size(); ++body) {
+    if (moved.has(body)) {
+      for (const Point2& corner : corners_at_start_[body]) {
+        rear = std::min(rear, path().project(corner).along);
+      }
+      top = std::max(top, tops_at_start_[body]);
+    }
   }
-  return rear;
+  return Front{foremost.along, foremost.position, foremost.along - rear, top};
 }
 
 template <int Dim>
@@ -209,8 +217,8 @@ HistoryRow RunRecords<Dim>::history_row(const Simulation& simulation) const {
     return sim::history_row(simulation);
   }
   const std::optional<Front> foremost = front(simulation);
-  return sim::history_row(simulation, foremost ? FrontInRow{foremost->along, foremost->along - rear_of_release()}
-                                               : FrontInRow{unknown, unknown});
+  return sim::history_row(simulation,
+                          foremost ? FrontInRow{foremost->along, foremost->travelled} : FrontInRow{unknown, unknown});
 }
 
 template <int Dim>
@@ -233,8 +241,8 @@ std::optional<RunFigures> RunRecords<Dim>::figures(
                      unknown};
   if (const std::optional<Front> foremost = front(simulation)) {
     figures.front_distance = foremost->along;
-    figures.travel_distance = foremost->along - rear_of_release();
-    figures.drop_height = release_top_ - ground_height(foremost->position[0], foremost->position[1]);
+    figures.travel_distance = foremost->travelled;
+    figures.drop_height = foremost->top - ground_height(foremost->position[0], foremost->position[1]);
     figures.reach_angle = angle_of_reach(figures.drop_height, figures.travel_distance);
   }
   return figures;

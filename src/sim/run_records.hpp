@@ -17,8 +17,10 @@ namespace thawslide::sim {
 
 // Front of a 3D slide.
 struct Front {
-  double along;     // arc length of the path that has 99.5 % of the mass behind it [m]
-  Point2 position;  // of the particle at the front [m]
+  double along;      // arc length of the path that has 99.5 % of the mass behind it [m]
+  Point2 position;   // of the particle at the front [m]
+  double travelled;  // distance along the path from the rear end of the same bodies at t = 0 [m]
+  double top;        // elevation of the highest point of these bodies at t = 0 [m]
 };
 
 template <int Dim>
@@ -47,7 +49,8 @@ class RunRecords {
   // centre has barely moved (CentrePath).
   [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : centre_path_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
-  // Front along the path; empty without a path, without particles, or after a device failed.
+  // Front of the mass that has moved, along the path; empty without a path, without particles, or after a device
+  // failed.
   [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;
   // Row of the history. In 3D, front and runout are measured along the path: arc length, and its distance from the rear
   // end of the release; NaN while there is no front.
@@ -62,16 +65,14 @@ class RunRecords {
 
  private:
   void add_to_path(const Simulation& simulation, const mpm::MassMoments& sums);
-  // Arc length of the path at the rear of the release: the minimum over its bounding corners [m].
-  [[nodiscard]] double rear_of_release() const;
 
   std::optional<FlowMaps> maps_;
   PathLine given_;
   bool path_given_ = false;
   CentrePath centre_path_;
   Probes probes_;
-  config::Polyline2 corners_at_start_;  // of bodies
-  double release_top_ = 0.0;            // elevation of the highest point of the slide at t = 0 [m]
+  std::vector<config::Polyline2> corners_at_start_;  // by body
+  std::vector<double> tops_at_start_;                // elevation of the highest point, by body [m]
 };
 
 }  // namespace thawslide::sim

@@ -10,7 +10,6 @@ template <int Dim>
 std::vector<double> Simulation<Dim>::scalars() const {
   std::vector<double> numbers{time_,
                               last_step_,
-                              rear_at_start_,
                               static_cast<double>(step_number_),
                               static_cast<double>(next_id_),
                               column_time_,
@@ -21,6 +20,9 @@ std::vector<double> Simulation<Dim>::scalars() const {
   budget.for_each([&](const Real& term) { numbers.push_back(static_cast<double>(term)); });
   RunMonitor monitor = monitor_;
   monitor.for_each([&](double number) { numbers.push_back(number); });
+  for (BodyAtStart body : bodies_at_start_) {
+    body.for_each([&](double number) { numbers.push_back(number); });
+  }
   for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
     numbers.push_back(static_cast<double>(count));
   }
@@ -32,7 +34,6 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   StateNumbers state(scalars, "run");
   time_ = state.next_finite();
   last_step_ = state.next_finite();
-  rear_at_start_ = state.next_finite();
   step_number_ = state.whole(largest_whole);
   next_id_ = state.whole(largest_whole);
   column_time_ = state.next_finite();
@@ -41,6 +42,10 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   fixed_step_clock_.from_number = state.whole(step_number_);
   budget_.for_each([&](Real& term) { term = static_cast<Real>(state.next()); });
   monitor_.for_each([&](double& number) { number = state.next(); });
+  bodies_at_start_.resize(model_.body_names.size());
+  for (BodyAtStart& body : bodies_at_start_) {
+    body.for_each([&](double& number) { number = state.next(); });
+  }
   for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
     *count = state.whole(largest_whole);
   }

@@ -383,13 +383,7 @@ void Simulation<Dim>::start_ledger() {
   budget_.initial_thermal = sums.sensible + sums.latent;
   budget_.initial_mass = sums.mass;
   budget_.initial_momentum = sums.momentum;
-  const double direction = direction_at_start(model_, particles_, parameters_.grid.cell);
-  double rear = HUGE_VAL;
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    const Real half = model_.motion.sizes.half(static_cast<std::size_t>(particles_.body(p))) * grid_.cell();
-    rear = std::min(rear, direction * static_cast<double>(particles_.position(p, 0)) - static_cast<double>(half));
-  }
-  rear_at_start_ = direction * rear + model_.origin[0];
+  bodies_at_start_ = sim::bodies_at_start(model_, particles_, parameters_.grid.cell);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template class Simulation<Dim>;

@@ -13,11 +13,11 @@
 #include "base/stopwatch.hpp"
 #include "config/case.hpp"
 #include "device/solver_factory.hpp"
-#include "mpm/front.hpp"
 #include "mpm/motion.hpp"
 #include "sim/budget.hpp"
 #include "sim/model.hpp"
 #include "sim/monitor.hpp"
+#include "sim/moved_mass.hpp"
 #include "sim/time_step.hpp"
 
 // Declared only, so that users of a simulation do not compile them.
@@ -140,9 +140,11 @@ class Simulation {
   // Sums over all particles, in host or device memory, or over marked ones, by particle.
   [[nodiscard]] BodySums<Dim> sum_over_body() const;
   [[nodiscard]] BodySums<Dim> sum_over_marked(const std::vector<std::uint8_t>& marked) const;
-  // Particle at the front along a line, or along the x axis if the line has no segments. At least one particle must
-  // exist.
-  [[nodiscard]] mpm::PathSample front(const LineView& line = {}) const;
+  // Mass that has moved by more than time.moved_distance; all mass while there is none.
+  [[nodiscard]] MovedMass moved_mass() const;
+  // Particle at the front of a mass along a line, or along the x axis if the line has no segments. At least one
+  // particle must exist.
+  [[nodiscard]] mpm::PathSample front(const MovedMass& mass, const LineView& line = {}) const;
   // Map sums of a step on a device; null after a step on the CPU.
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const;
   // Nodes of a step on the CPU.
@@ -161,7 +163,7 @@ class Simulation {
   [[nodiscard]] const terrain::Bed<Dim>* bed() const { return bed_ ? &*bed_ : nullptr; }
   void restore_bed(const std::vector<double>& state) { bed_->restore(state); }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
-  [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
+  [[nodiscard]] const std::vector<BodyAtStart>& bodies_at_start() const { return bodies_at_start_; }
   [[nodiscard]] std::size_t particles_at_start() const { return particles_at_start_; }
   [[nodiscard]] StepLimit step_limit() const;
 
@@ -293,8 +295,9 @@ class Simulation {
   Removed removed_;
   mpm::InvalidParticle invalid_;
   std::vector<std::uint8_t> marks_;  // by particle: those to be removed
+  std::vector<BodyAtStart> bodies_at_start_;
   Stopwatch stopwatch_;
-  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, current_band_thickness_ = -1.0,
+  double time_ = 0.0, last_step_ = 0.0, current_band_thickness_ = -1.0,
          column_time_ = 0.0;  // since the last step of the band columns
   std::int64_t step_number_ = 0, next_id_ = 0;
   // Clock of fixed steps of one size: that size, and the time and step number when the first of them began.

@@ -214,14 +214,14 @@ TEST(Direction, IsKeptForASlideWithASmallUphillVelocity) {
       EXPECT_GT(runout, 35.0);
       for (int k = 0; k < 8; ++k) {
         run_until(simulation, 0.25 * (k + 1));
-        EXPECT_EQ(direction_along_x(simulation), downhill);
+        EXPECT_EQ(front_along_x(simulation).direction, downhill);
         const double now = value_of(history_row(simulation), "runout_m");
         EXPECT_NEAR(now, runout, 3.0) << simulation.time();
         runout = now;
       }
       EXPECT_GT(runout, 43.0);
       const Simulation<2> fast(paper_case(sliding(is_mirrored, by_tilt, -22.0)));
-      EXPECT_EQ(direction_along_x(fast), -downhill);
+      EXPECT_EQ(front_along_x(fast).direction, -downhill);
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/end_state.hpp"
+#include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -109,7 +110,7 @@ TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
   EXPECT_TRUE(still.at_rest);
   EXPECT_EQ(still.rest_since, 0.0);
   EXPECT_TRUE(warnings_of(still, true).empty());
-  EXPECT_EQ(when_text(still), "at 0.5 s, at rest");
+  EXPECT_EQ(when_text(still), "at 0.5 s, has not moved");
   EXPECT_FALSE(state_at(0.2, "body.block.velocity=[0.0,0.0]").at_rest) << "too early to decide";
   // It comes to rest within 0.3 s, but has not been at rest since the start.
   EXPECT_FALSE(state_at(1.0, "body.block.velocity=[0.5,0.0]").at_rest);
@@ -144,6 +145,29 @@ TEST(Rest, ResumedDuringTheRestTimeEndsAtTheSameTime) {
   resumed.restore(scalars);
   EXPECT_EQ(resumed.scalars(), parted.scalars());
   EXPECT_EQ(end_of(resumed), end);
+}
+
+// Cohesion holds a block on 25 degrees until 3 s; it slides by itself afterwards.
+TEST(Rest, BeginsAfterTheLastScheduledEvent) {
+  const Sets held =
+      "case.gravity_tilt=25; body.block.velocity=[0,0]; basal.cohesion=1e6; basal.cohesion_law='time'; "
+      "basal.cohesion_loss_time=3; heat.enabled=false; pressure.enabled=false";
+  Simulation<2> simulation(paper_case(block + held));
+  EXPECT_EQ(end_of(simulation), 5.0);
+  EXPECT_GT(value_of(history_row(simulation), "mean_velocity_m_s"), 1.0);
+  EXPECT_EQ(
+      simulation.rest_rule(),
+      "for 0.4 s, or 0.25 s from the start, after the last scheduled change at 3 s no more than 0.5 % of the mass "
+      "faster than 0.05 m/s");
+}
+
+TEST(Rest, OfABodyThatHasNotMovedIsNamedSo) {
+  Simulation<2> simulation(paper_case(block + Sets("body.block.velocity=[0.5,0]")));
+  end_of(simulation);
+  EXPECT_TRUE(simulation.ends_at_rest());
+  EXPECT_EQ(simulation.rest_text(), "the slide has not moved: no part of it by more than 1 m (time.moved_distance)");
+  const std::string when = when_text(end_state<2>(simulation, false));
+  EXPECT_EQ(when.substr(when.find(',')), ", has not moved");
 }
 
 }  // namespace

@@ -19,16 +19,18 @@ using namespace testing_support;
 
 constexpr auto level_ground = [](double /*x*/, double /*y*/) { return 0.0; };
 
-TEST(Section, PartsAreDividedAtCellBorders) {
-  const MapGrid grid{0.5, 1.0, 1.0, 2.0, 10, 10, ""};  // borders at whole metres along x, at even ones along y
-  const auto parts = parts_of_section({{0.5, 1.0}, {3.5, 1.0}, {3.5, 4.5}}, grid);
-  ASSERT_EQ(parts.size(), 7u);
-  const std::vector<std::array<double, 5>> expected{{0, 0, 0.5, 0, -1}, {1, 0, 1.0, 0, -1}, {2, 0, 1.0, 0, -1},
-                                                    {3, 0, 0.5, 0, -1}, {3, 0, 1.0, 1, 0},  {3, 1, 2.0, 1, 0},
-                                                    {3, 2, 0.5, 1, 0}};
+TEST(Section, PartsAreDividedBetweenThePointsOfTheMaps) {
+  const MapGrid grid{0.5, 1.0, 1.0, 2.0, 10, 10, ""};  // points at half metres along x, at odd ones along y
+  const auto parts = parts_of_section({{0.5, 1.0}, {3.0, 1.0}, {3.0, 4.0}}, grid);
+  ASSERT_EQ(parts.size(), 5u);
+  const std::vector<std::array<double, 5>> expected{{1.0, 0.5, 1.0, 0, -1},
+                                                    {2.0, 0.5, 1.0, 0, -1},
+                                                    {2.75, 0.5, 0.5, 0, -1},
+                                                    {3.0, 1.0, 2.0, 1, 0},
+                                                    {3.0, 1.75, 1.0, 1, 0}};
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    EXPECT_EQ(parts[k].column, expected[k][0]);
-    EXPECT_EQ(parts[k].row, expected[k][1]);
+    EXPECT_NEAR(parts[k].column, expected[k][0], 1e-12);
+    EXPECT_NEAR(parts[k].row, expected[k][1], 1e-12);
     EXPECT_NEAR(parts[k].length, expected[k][2], 1e-12);
     EXPECT_NEAR(parts[k].normal_x, expected[k][3], 1e-12);
     EXPECT_NEAR(parts[k].normal_y, expected[k][4], 1e-12);
@@ -37,8 +39,7 @@ TEST(Section, PartsAreDividedAtCellBorders) {
 
 TEST(Section, ObliquePartsSumToItsLength) {
   const MapGrid grid{0.5, 1.0, 1.0, 2.0, 20, 20, ""};
-  double length = 0.0;
-  int column = 0;
+  double length = 0.0, column = 0.0;
   for (const SectionPart& part : parts_of_section({{0.3, 0.1}, {17.1, 33.7}}, grid)) {
     length += part.length;
     EXPECT_GE(part.column, column);
@@ -54,8 +55,8 @@ TEST(Section, OnTheLastBorderBelongsToTheCellsBeforeIt) {
   EXPECT_TRUE(grid.contains(3.0, 2.0));
   EXPECT_FALSE(grid.contains(3.001, 2.0));
   for (const SectionPart& part : parts_of_section({{0.0, 2.0}, {3.0, 2.0}}, grid)) {
-    EXPECT_EQ(part.row, 1);
-    EXPECT_LT(part.column, 3);
+    EXPECT_EQ(part.row, 2.0);
+    EXPECT_LT(part.column, 3.0);
   }
   EXPECT_EQ(grid.cell_column(grid.column_of(3.0)), 2);
 }

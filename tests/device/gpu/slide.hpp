@@ -175,6 +175,7 @@ band::SumsOfParticle<Dim> sums_of_particle() {
   of_particle.phases = phases();
   of_particle.latent = of_particle.melt_contracts = true;
   of_particle.current_masses = false;
+  of_particle.moved_distance = Real(1);
   return of_particle;
 }
 

@@ -1,0 +1,35 @@
+// Times at which a case changes by itself: a slide at rest before them may start again.
+#pragma once
+
+#include <algorithm>
+#include <variant>
+
+#include "config/basal_laws.hpp"
+#include "config/case.hpp"
+
+namespace thawslide::config {
+
+// Time at which ground loses its cohesion [s]; 0 if it does so by slip, or not at all.
+inline double cohesion_loss_time(const GroundStrength& ground) {
+  return std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.loss_time; }) {
+          return static_cast<double>(law.loss_time);
+        } else {
+          return 0.0;
+        }
+      },
+      cohesion_of(ground));
+}
+
+// Time of the last change [s]; 0 if there is none.
+inline double last_scheduled_event(const Case& parameters) {
+  double last = cohesion_loss_time(parameters.basal);
+  for (const auto& [name, substrate] : parameters.substrates) {
+    last = std::max(last, cohesion_loss_time(substrate));
+  }
+  const std::vector<double>& times = parameters.band.thickness.table.abscissa;
+  return times.empty() ? last : std::max(last, times.back());
+}
+
+}  // namespace thawslide::config
