@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import math
 import tempfile
 import tomllib
 from collections.abc import Mapping
+from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -45,29 +47,36 @@ class Case:
     """
 
     def __init__(self, file: str | PathLike[str], changes: Mapping[str, object] | None = None) -> None:
-        """Read a case file, or the case.toml of a folder. `changes` replaces keys; paths in it may lie anywhere."""
-        self._file = fspath(file)
-        self._sets: dict[str, str] = {key: toml_text(value) for key, value in (changes or {}).items()}
-        self._folder: tempfile.TemporaryDirectory[str] | None = None
-        self._read()
+        """Read a case file, or the case.toml of a folder. `changes` replaces keys; paths in it may lie anywhere.
+
+        The case keeps the text of its files, and the absolute paths of all others: later changes of these files or of
+        the working directory do not affect it.
+        """
+        self._files = _core.read_case_files(str(Path(file).absolute()))
+        self._sets: dict[str, tuple[str, str]] = {}  # values as TOML, and the folders of their paths
+        self.change(changes or {})
 
     @classmethod
     def from_text(cls, text: str, changes: Mapping[str, object] | None = None) -> Case:
         """Read a case from the text of a case file. Its files must be given in `changes`, with paths."""
-        folder = tempfile.TemporaryDirectory(prefix="thawslide-")
-        (Path(folder.name) / "case.toml").write_text(text, encoding="utf-8")
-        case = cls(folder.name, changes)
-        case._folder = folder
-        return case
+        with tempfile.TemporaryDirectory(prefix="thawslide-") as folder:
+            (Path(folder) / "case.toml").write_text(text, encoding="utf-8")
+            return cls(folder, changes)
 
-    def _read(self) -> None:
-        self._core = _core.read_case(self._file, [f"{key}={text}" for key, text in self._sets.items()])
-        self._values: dict[str, Any] | None = None
+    @cached_property
+    def _core(self) -> _core.Case:
+        sets = [(f"{key}={text}", folder) for key, (text, folder) in self._sets.items()]
+        return _core.case_of(self._files, sets)
+
+    @cached_property
+    def _values(self) -> dict[str, Any]:
+        return tomllib.loads(self.to_toml())
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_files": self._files, "_sets": dict(self._sets)}
 
     def __getitem__(self, key: str) -> Any:
         """Return the value of a key such as "band.thickness", or a table such as "band"; KeyError if it has none."""
-        if self._values is None:
-            self._values = tomllib.loads(_core.resolved_toml(self._core))
         value: Any = self._values
         for part in key.split("."):
             if not isinstance(value, dict) or part not in value:
@@ -81,25 +90,21 @@ class Case:
 
     def change(self, changes: Mapping[str, object]) -> None:
         """Replace several keys at once; UserError if the case would not be valid."""
-        before = dict(self._sets)
-        self._sets.update({key: toml_text(value) for key, value in changes.items()})
-        try:
-            self._read()
-        except Exception:
-            self._sets = before
-            raise
+        other = copy.copy(self)  # by __getstate__: without the values read
+        other._sets |= {key: (toml_text(value), str(Path.cwd())) for key, value in changes.items()}
+        _ = other._core  # UserError
+        self.__dict__ = other.__dict__
 
     def copy(self) -> Case:
         """Return an independent copy."""
         other = object.__new__(Case)
-        other.__dict__.update(self.__dict__)
-        other._sets = dict(self._sets)
+        other.__dict__.update(self.__dict__, _sets=dict(self._sets))
         return other
 
     @property
     def changes(self) -> dict[str, str]:
         """The replaced keys, with their values as TOML."""
-        return dict(self._sets)
+        return {key: text for key, (text, _) in self._sets.items()}
 
     @property
     def name(self) -> str:
@@ -121,10 +126,20 @@ class Case:
         """The key time.end [s]."""
         return self._core.end
 
+    @property
+    def case_files(self) -> list[str]:
+        """The paths of the case file and of those that it is based on."""
+        return [path for path, _ in self._files]
+
+    @property
+    def input_files(self) -> list[str]:
+        """The paths of all input files, those of the case first."""
+        return _core.input_files(self._core)
+
     def to_toml(self) -> str:
         """Return the case file with all defaults."""
         return _core.resolved_toml(self._core)
 
     def __repr__(self) -> str:
-        changes = ", ".join(f"{key}={text}" for key, text in self._sets.items())
-        return f"Case({self._file!r}{', ' if changes else ''}{changes})"
+        changes = ", ".join(f"{key}={text}" for key, text in self.changes.items())
+        return f"Case({self.case_files[0]!r}{', ' if changes else ''}{changes})"

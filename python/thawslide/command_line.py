@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import argparse
 import math
-import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TextIO
 
+from thawslide.commands import print_line
 from thawslide.contours import write_contours
-from thawslide.errors import ReportError, printable, quoted
+from thawslide.errors import ReportError, quoted
 from thawslide.figures import FIGURES
 from thawslide.reports import LEAST_DPI, MOST_DPI, figure_names, write_pages
 from thawslide.run_folder import Run
@@ -31,7 +30,7 @@ def _run_safely(work: Callable[[], int]) -> int:
     try:
         return work()
     except ReportError as error:
-        _print(f"thawslide-report: error: {error}", sys.stderr)
+        print_line(f"thawslide-report: error: {error}", sys.stderr)
         return 2
 
 
@@ -51,50 +50,33 @@ def _plots(given: argparse.Namespace) -> int:
 
 def _contours(given: argparse.Namespace) -> int:
     path = write_contours(Run(given.run, skip_damaged=True), given.map, given.threshold, given.below, given.output)
-    _print(f"contours: {path}")
+    print_line(f"contours: {path}")
     return 0
-
-
-def _print(line: str, stream: TextIO | None = None) -> None:
-    """Print a line; a closed pipe or a full disk is ignored, because the results are files.
-
-    Characters missing in the encoding of the stream are escaped.
-    """
-    to = stream or sys.stdout
-    if to is None:  # closed by the parent process
-        return
-    encoding = to.encoding or "utf-8"
-    try:
-        print(printable(line).encode(encoding, "backslashreplace").decode(encoding), file=to, flush=True)
-    except OSError:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, to.fileno())
-        os.close(nowhere)
 
 
 def _pages(given: argparse.Namespace) -> int:
     """Write the page that the arguments select; return the exit code."""
     names = figure_names(given.only)
     runs = [_opened(folder) for folder in given.run]
-    pages = write_pages(runs, given.output, names, given.brief, given.dpi, progress=_print)
+    pages = write_pages(runs, given.output, names, given.brief, given.dpi, progress=print_line)
     for run in runs:
         _print_warnings(run)
     for name, reason in pages.faults.items():
-        _print(f"thawslide-report: error: {name}: not plotted: {reason}", sys.stderr)
+        print_line(f"thawslide-report: error: {name}: not plotted: {reason}", sys.stderr)
     for kind, path in pages.files:
-        _print(f"{kind}: {path}")
+        print_line(f"{kind}: {path}")
     return 2 if pages.faults else 0
 
 
 def _opened(folder: Path) -> Run:
     run = Run(folder, skip_damaged=True)
-    _print(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots")
+    print_line(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots")
     return run
 
 
 def _print_warnings(run: Run) -> None:
     for warning in run.warnings:
-        _print(f"thawslide-report: warning: {warning}", sys.stderr)
+        print_line(f"thawslide-report: warning: {warning}", sys.stderr)
 
 
 def _dpi(text: str) -> int:

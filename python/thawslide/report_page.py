@@ -13,6 +13,7 @@ from thawslide.balance import balance_note, balances
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import Animation
+from thawslide.figures.style import save_figure
 from thawslide.key_numbers import boiling_note, found_for, key_numbers
 from thawslide.maps import Maps, on_map
 from thawslide.mobility import mobility_of
@@ -96,7 +97,7 @@ def _write_figure(run: Run, name: str, folder: Path, dpi: int, progress: Callabl
             plotted.write(path, dpi, progress)
         else:
             with atomic_file(path) as temporary:
-                plotted.savefig(temporary, dpi=dpi)
+                save_figure(plotted, temporary, dpi=dpi)
     except (ValueError, ArithmeticError, MemoryError) as error:
         raise ReportError(f"{run.folder}: {name} cannot be plotted ({error}). Check the values of the run.") from error
     return path

@@ -26,6 +26,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    save_figure,
     styled,
 )
 from thawslide.figures.window import Window, fill_terrain, fit, squares
@@ -136,7 +137,7 @@ def plot_setup_file(setup: Path, picture: Path, dpi: int = 150) -> None:
     try:
         figure = plot_setup_on_map(found) if isinstance(found, SetupOnMap) else plot_setup(found)
         picture.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(picture, dpi=dpi)
+        save_figure(figure, picture, dpi=dpi)
     except OSError as error:
         raise ReportError(f"{picture}: cannot be written ({error}). Select another file.") from error
     except (ValueError, ArithmeticError, MemoryError) as error:

@@ -52,6 +52,13 @@ gis::Rectangle span_of_dem(const std::string& dem) {
 }  // namespace
 
 config::Case trial_case(const std::string& folder, const MapOptions& maps) {
+  if (!maps.release.empty() && gis::is_raster_file(maps.release) && fs::is_regular_file(maps.dem) &&
+      !gis::is_raster_file(maps.dem)) {
+    throw UserError(
+        fmt::format("--dem: {} is not a raster, and {} is one: the DEM and the release are swapped. Give "
+                    "--dem {} --release {}.",
+                    maps.dem, maps.release, maps.release, maps.dem));
+  }
   const gis::Rectangle span = span_of_dem(maps.dem);
   config::Case trial;
   trial.name = trial.file = folder;
@@ -98,7 +105,8 @@ namespace {
 // Replaces keys of a case by options in a message, for a user who has no case yet.
 std::string as_option_names(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
-      {"which body.slide.thickness asks for", "which is needed without --thickness"},
+      {"which body.slide.thickness asks for; ", "which contains the thickness if --thickness is not given; "},
+      {". Correct the name, or add the attribute.", ". Give the thickness with --thickness, or add the attribute."},
       {"terrain.crs = ", "--crs "},
       {"body.slide.largest_volume", "--largest-volume"},
       {"body.slide.thickness", "--thickness"},

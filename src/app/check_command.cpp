@@ -9,6 +9,7 @@
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "run/device_choice.hpp"
 #include "run/input_guard.hpp"
@@ -108,7 +109,8 @@ int check_case(const CheckOptions& options) {
                                                                std::integral_constant<int, Dim> /*dimension*/) {
     Terminal terminal;
     run::Warnings warnings(options.json ? nullptr : &terminal);
-    sim::Simulation<Dim> simulation(parameters, run::read_map_files(parameters, warnings));
+    sim::Simulation<Dim> simulation = config::with_unusual_numbers(
+        parameters, [&] { return sim::Simulation<Dim>(parameters, run::read_map_files(parameters, warnings)); });
     sim::RunRecords<Dim> records(simulation, simulation.site());  // checks that maps, path and probes can be recorded
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);

@@ -1,4 +1,7 @@
 // Command line: options, commands and exit codes (listed in docs/reference/command-line.md).
+#include <fmt/ranges.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
@@ -6,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -15,6 +19,7 @@
 #include "app/process.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
 #include "version.hpp"
@@ -52,7 +57,8 @@ CLI::Validator above_zero() {
   return {[](std::string& text) {
             double number = 0.0;
             if (!CLI::detail::lexical_cast(text, number)) {
-              return fmt::format("{} found; allowed: a number above 0, without a unit", text);
+              return fmt::format("{} found; allowed: a number above 0, without a unit{}", text,
+                                 thawslide::comma_advice(text));
             }
             return number > 0.0 && std::isfinite(number) ? std::string()
                                                          : fmt::format("{} found; allowed: above 0", text);
@@ -190,6 +196,7 @@ int run_program(int count, char** arguments) {
       ->add_option("--reach-angle", new_options.reach_angle,
                    "Extent of the domain: it includes all terrain below a line that descends at this angle from the "
                    "top of the release [degrees]")
+      ->check(above_zero())
       ->check(CLI::Range(1.0, 45.0))
       ->option_text("1 to 45, default 8");
   CLI::Option* cell = make_new->add_option("--cell", new_options.cell, "Side length of a grid cell [m]")
@@ -269,6 +276,17 @@ namespace {
 // Escapes control characters, because names of files, attributes and others come from external sources.
 std::string printable(std::string text) { return thawslide::config::printable(std::move(text), "\n\t"); }
 
+// Last resort: prints the error, and writes it with command line and version to a log file.
+int end_with_internal_error(const std::string& error, int count, char** arguments) {
+  std::error_code none;  // the file is then written to the working directory
+  const std::filesystem::path log =
+      std::filesystem::temp_directory_path(none) / fmt::format("thawslide-error-{}.log", getpid());
+  std::ofstream(log) << fmt::format("thawslide {} {}\n{}\n{}\n", thawslide::version, thawslide::commit,
+                                    fmt::join(arguments, arguments + count, " "), error);
+  print_error("error: internal error, please report it with {}: {}\n", log.string(), error);
+  return 1;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -301,7 +319,8 @@ int main(int count, char** arguments) {
     if (of_system != nullptr && std::ferror(stdout) != 0) {
       return end_without_output(of_system->code(), static_cast<int>(ExitCode::done));
     }
-    print_error("internal error, please report it: {}\n", error.what());
-    return 1;
+    return end_with_internal_error(printable(error.what()), count, arguments);
+  } catch (...) {
+    return end_with_internal_error("an exception of unknown type", count, arguments);
   }
 }

@@ -3,8 +3,7 @@
 namespace thawslide {
 
 void fail_assertion(const char* condition, const char* file, int line, const std::string& values) {
-  throw InternalError(
-      fmt::format("{}:{}: internal error, please report it: '{}' does not hold: {}", file, line, condition, values));
+  throw InternalError(fmt::format("{}:{}: internal error: '{}' does not hold: {}", file, line, condition, values));
 }
 
 }  // namespace thawslide

@@ -11,6 +11,7 @@
 
 #include "base/aligned.hpp"
 #include "base/error.hpp"
+#include "base/waiting_threads.hpp"
 
 namespace thawslide {
 
@@ -32,6 +33,8 @@ void set_thread_count(int threads) {
   THAWSLIDE_ASSERT(threads >= 1, "{} threads", threads);
   omp_set_num_threads(threads);
 }
+
+void end_waiting_threads() { omp_pause_resource_all(omp_pause_soft); }
 
 int available_cores() { return omp_get_num_procs(); }
 

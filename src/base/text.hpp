@@ -15,6 +15,17 @@ namespace thawslide {
                                          : std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
 }
 
+// Advice if a text is a number with a decimal comma, such as "; write a decimal point: 12.5"; otherwise empty.
+[[nodiscard]] inline std::string comma_advice(std::string text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || text.find_first_not_of("0123456789+-eE,") != std::string::npos ||
+      text.find(',', comma + 1) != std::string::npos) {
+    return "";
+  }
+  text[comma] = '.';
+  return "; write a decimal point: " + text;
+}
+
 // Text with the letters A to Z in lower case, independent of the locale.
 [[nodiscard]] inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

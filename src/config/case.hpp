@@ -13,6 +13,7 @@
 
 #include "base/table.hpp"
 #include "config/case_output.hpp"
+#include "config/case_source.hpp"
 #include "physics/basal/parameter.hpp"
 #include "physics/options.hpp"
 
@@ -334,9 +335,9 @@ struct Case {
   std::string file;  // absolute path of the case file
   std::map<std::string, std::string>
       locations;  // locations of each given table and key by dotted name: "case.toml:12:7", "--set ..."
-  std::set<std::string> not_given;      // those of `locations` that a resolved case contains as defaults
-  std::vector<std::string> case_files;  // the case file and those it is based on, absolute
-  std::vector<std::string> notes;       // former names that the file uses
+  std::set<std::string> not_given;   // those of `locations` that a resolved case contains as defaults
+  std::vector<CaseFile> case_files;  // the case file and those it is based on, absolute
+  std::vector<std::string> notes;    // former names that the file uses
   General general;
   Time time;
   Grid grid;

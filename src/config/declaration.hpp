@@ -31,11 +31,12 @@ struct Meaning {
   std::string decided_by;
 };
 
-// Number of the case outside the usual range.
-struct Unusual {
+// Numbers of one key of the case.
+struct KeyNumbers {
   std::string key;  // dotted
-  double value = 0.0;
+  std::vector<double> numbers;
   const Rule* rule = nullptr;
+  bool is_usual = false;  // the usual range of the rule applies
 };
 
 // Numbers contained in a value; none for most types.
@@ -45,6 +46,12 @@ std::vector<double> numbers_in(const T& value) {
     return {value};
   } else if constexpr (std::is_same_v<T, BandThickness>) {
     return value.table.value;
+  } else if constexpr (std::is_same_v<T, MapValue>) {
+    return value.from == MapValue::From::number ? std::vector<double>{value.number} : std::vector<double>{};
+  } else if constexpr (std::is_same_v<T, InitialField>) {
+    return value.table.value;
+  } else if constexpr (std::is_same_v<T, Point> || std::is_same_v<T, std::vector<double>>) {
+    return {value.begin(), value.end()};
   } else {
     return {};
   }
@@ -161,7 +168,8 @@ class TableDeclaration {
   // Reports missing keys and fills in values that follow from other keys.
   virtual void complete(Case& result, Reading& reading) const = 0;
   virtual void write(const Case& source, const WriteContext& context, std::string& out) const = 0;
-  virtual void find_unusual(const Case& source, std::vector<Unusual>& found) const = 0;
+  // Adds the keys that have a meaning in the case and contain numbers.
+  virtual void collect_numbers(const Case& source, std::vector<KeyNumbers>& found) const = 0;
   // Names of the instances of a named table in the case.
   [[nodiscard]] virtual std::vector<std::string> names(const Case& source) const = 0;
 };

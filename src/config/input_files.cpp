@@ -74,8 +74,8 @@ std::vector<InputFile> input_files_by_key(const Case& parameters) {
       files.push_back({key, file});
     }
   };
-  for (const std::string& file : parameters.case_files) {
-    add(files.empty() ? "" : "case.based_on", file);
+  for (const CaseFile& each : parameters.case_files) {
+    add(files.empty() ? "" : "case.based_on", each.file);
   }
   add("terrain.file", parameters.terrain.file);
   add("report.targets", parameters.report.targets);

@@ -4,9 +4,27 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "config/case.hpp"
 
 namespace thawslide::config {
+
+// Numbers that are unusual, or plausible in another unit.
+std::vector<std::string> unusual_numbers(const Case& parameters);
+
+// Calls work(). Adds the unusual numbers of the case to a UserError, because one of them can be its cause.
+template <class Work>
+auto with_unusual_numbers(const Case& parameters, const Work& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    std::string message = error.what();
+    for (const std::string& each : unusual_numbers(parameters)) {
+      message += "\nwarning: " + each;
+    }
+    throw UserError(message);
+  }
+}
 
 // Each notice specifies the location, the value, the usual range and the consequence.
 std::vector<std::string> notices(const Case& parameters);

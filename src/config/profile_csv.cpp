@@ -100,7 +100,8 @@ class ProfileReader {
 
   void read_row(const Fields& fields) {
     if (fields.size() != columns_) {
-      fail(fmt::format("the row has {} fields; the header has {}", fields.size(), columns_));
+      fail(fmt::format("the row has {} fields; the header has {}{}", fields.size(), columns_,
+                       fields.size() == 2 * columns_ ? ". Write decimal points, not commas" : ""));
     }
     const double distance = number(fields[0], 0);
     const double terrain = number(fields[1], 1);

@@ -114,20 +114,31 @@ void read_tables(const toml::table& root, Case& result, Reading& reading) {
 
 }  // namespace
 
+std::vector<CaseFile> read_case_files(const fs::path& case_file_or_folder) {
+  return read_with_bases(find_case_file(case_file_or_folder));
+}
+
 Case read_case(const fs::path& case_file_or_folder, const std::vector<std::string>& sets) {
-  Reading reading;
+  std::error_code error;
+  std::vector<Override> overrides;
   for (const std::string& set : sets) {
-    reading.overrides.push_back(parse_override(set));
+    overrides.push_back(parse_override(set));
+    overrides.back().folder = fs::current_path(error);
   }
-  const fs::path file = find_case_file(case_file_or_folder);
-  reading.file = file.string();
-  const fs::path absolute = fs::absolute(file).lexically_normal();
+  return case_of(read_case_files(case_file_or_folder), overrides);
+}
+
+Case case_of(const std::vector<CaseFile>& files, const std::vector<Override>& overrides) {
+  Reading reading;
+  reading.overrides = overrides;
+  reading.file = files.front().file.string();
+  const fs::path absolute = fs::absolute(files.front().file).lexically_normal();
   reading.folder = absolute.parent_path();
 
   Case result;
   result.name = name_of(absolute);
   result.file = absolute.string();
-  LayeredCase layered = read_with_bases(file);
+  LayeredCase layered = merged(files);
   apply_overrides(layered.root, reading);
   read_tables(layered.root, result, reading);
   for (const auto& [key, location] : reading.locations) {
@@ -143,8 +154,8 @@ Case read_case(const fs::path& case_file_or_folder, const std::vector<std::strin
   result.notes = reading.notes;
   // The merged case is complete and no longer depends on its base.
   result.general.based_on.clear();
-  for (const fs::path& each : layered.files) {
-    result.case_files.push_back(fs::absolute(each).lexically_normal().string());
+  for (const CaseFile& each : files) {
+    result.case_files.push_back({fs::absolute(each.file).lexically_normal(), each.text});
   }
   check_case(result, reading);
   reading.problems.raise_if_any();

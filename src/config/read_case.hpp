@@ -19,4 +19,9 @@ namespace thawslide::config {
 // found, the values allowed and the remedy.
 Case read_case(const std::filesystem::path& case_file_or_folder, const std::vector<std::string>& sets = {});
 
+// The two parts of read_case: the texts of the case file and those it is based on, and the case that they specify. The
+// second one reads no case file, and no working directory affects it if all paths are absolute.
+std::vector<CaseFile> read_case_files(const std::filesystem::path& case_file_or_folder);
+Case case_of(const std::vector<CaseFile>& files, const std::vector<Override>& overrides);
+
 }  // namespace thawslide::config

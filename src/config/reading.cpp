@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 
 namespace thawslide::config {
@@ -50,16 +51,20 @@ std::string similar_file(const std::filesystem::path& file) {
 
 }  // namespace
 
+const Override* Reading::override_of(const std::string& dotted, const toml::source_region& region) const {
+  const auto found = std::find_if(overrides.rbegin(), overrides.rend(), [&dotted](const Override& override) {
+    return within(dotted, override.key) || within(override.key, dotted);
+  });
+  return region.begin.line > 0 || found == overrides.rend() ? nullptr : &*found;
+}
+
 Location Reading::location_of(const std::string& dotted, const toml::source_region& region) const {
   if (region.begin.line > 0) {
     return {region.path ? *region.path : file, region.begin.line, region.begin.column, false};
   }
-  for (auto override = overrides.rbegin(); override != overrides.rend(); ++override) {
-    if (within(dotted, override->key) || within(override->key, dotted)) {
-      return {fmt::format("--set {}={}", override->key, override->value), 0, 0, true};
-    }
-  }
-  return {file, 0, 0, false};
+  const Override* override = override_of(dotted, region);
+  return override == nullptr ? Location{file, 0, 0, false}
+                             : Location{fmt::format("--set {}={}", override->key, override->value), 0, 0, true};
 }
 
 Location Reading::location_of(const std::string& dotted) const {
@@ -140,6 +145,7 @@ bool ValueReader::fail_type(const toml::node& node) const {
       message += reading.location_of(key, node.source()).command_line ? "; write " + plain_number(value)
                                                                       : std::string("; remove the quotes");
     }
+    message += comma_advice(text->get());
   }
   return fail(node, message);
 }
@@ -188,12 +194,13 @@ bool ValueReader::numbers(const toml::node& node, std::vector<double>& values, b
 
 bool ValueReader::resolve_path(const toml::node& node, std::string& path, const std::string& form) const {
   namespace fs = std::filesystem;
-  const bool from_command_line = reading.location_of(key, node.source()).command_line;
+  const Override* override = reading.override_of(key, node.source());
+  const bool from_command_line = override != nullptr;
   if (path.find('\0') != std::string::npos) {
     return fail(node, fmt::format("is \"{}\", a name with a zero byte; allowed: a file", shown(path)));
   }
   std::error_code error;
-  const fs::path base = from_command_line ? fs::current_path(error) : reading.folder;
+  const fs::path base = from_command_line ? override->folder : reading.folder;
   const fs::path whole = (base / path).lexically_normal();
   if (!from_command_line) {
     if (fs::path(path).is_absolute() || !lies_within(whole, base)) {

@@ -9,17 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "config/case_source.hpp"
 #include "config/problems.hpp"
 #include "config/rule.hpp"
 #include "config/toml.hpp"
 
 namespace thawslide::config {
-
-// One `--set key=value`: value is the text of a TOML value, or a bare word for a string.
-struct Override {
-  std::string key;
-  std::string value;
-};
 
 struct Reading {
   std::string file;              // as named by the user, for messages
@@ -31,6 +26,8 @@ struct Reading {
   std::map<std::string, Location> locations;  // of each given table and key, by dotted name
   std::set<std::string> invalid_keys;         // dotted keys that are missing or invalid
 
+  // The last `--set` that specifies the key or a table around it; nullptr if a case file specifies it.
+  [[nodiscard]] const Override* override_of(const std::string& dotted, const toml::source_region& region) const;
   // Location of a node of the key, or of the `--set` that specified it.
   [[nodiscard]] Location location_of(const std::string& dotted, const toml::source_region& region) const;
   // Location of a key or, if it is not given, of its table or of the file.

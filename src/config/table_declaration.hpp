@@ -126,18 +126,12 @@ class SectionParameters {
     }
   }
 
-  // For a value over time, finds the first unusual number.
-  void find_unusual(const std::string& dotted, const Case& whole, const Section& section,
-                    std::vector<Unusual>& found) const {
+  void collect_numbers(const std::string& dotted, const Case& whole, const Section& section,
+                       std::vector<KeyNumbers>& found) const {
     for (const auto& p : parameters_) {
-      if (!p.has_usual || !p.has_usual(whole, section) || (p.has_meaning && !p.has_meaning(whole, section))) {
-        continue;
-      }
-      const std::vector<double> numbers = p.numbers(section);
-      const auto outside =
-          std::find_if(numbers.begin(), numbers.end(), [&](double n) { return !p.rule.usual.contains(n); });
-      if (outside != numbers.end()) {
-        found.push_back({join(dotted, p.rule.key), *outside, &p.rule});
+      if (!p.has_meaning || p.has_meaning(whole, section)) {
+        found.push_back(
+            {join(dotted, p.rule.key), p.numbers(section), &p.rule, p.has_usual && p.has_usual(whole, section)});
       }
     }
   }
@@ -185,8 +179,8 @@ class SingleTable : public TableDeclaration {
     section_.write(name, source, source.*member_, context, lines);
     out += lines.empty() ? "" : "\n[" + name + "]\n" + lines;
   }
-  void find_unusual(const Case& source, std::vector<Unusual>& found) const override {
-    section_.find_unusual(name, source, source.*member_, found);
+  void collect_numbers(const Case& source, std::vector<KeyNumbers>& found) const override {
+    section_.collect_numbers(name, source, source.*member_, found);
   }
   [[nodiscard]] std::vector<std::string> names(const Case&) const override { return {}; }
 
@@ -231,9 +225,9 @@ class NamedTable : public TableDeclaration {
       section_.write(dotted, source, section, context, out);
     }
   }
-  void find_unusual(const Case& source, std::vector<Unusual>& found) const override {
+  void collect_numbers(const Case& source, std::vector<KeyNumbers>& found) const override {
     for (const auto& [own_name, section] : source.*member_) {
-      section_.find_unusual(join(name, own_name), source, section, found);
+      section_.collect_numbers(join(name, own_name), source, section, found);
     }
   }
   [[nodiscard]] std::vector<std::string> names(const Case& source) const override {

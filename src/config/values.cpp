@@ -234,8 +234,9 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
   if (dimension == 0 ? (found.size() != 2 && found.size() != 3) : found.size() != dimension) {
     return at.fail(node, dimension == 0
                              ? fmt::format("is an array of {} numbers; allowed: 2 or 3 numbers", found.size())
-                             : fmt::format("is an array of {} numbers; allowed: {} numbers, as case.dimension is {}",
-                                           found.size(), dimension, dimension));
+                             : fmt::format("is an array of {} numbers; allowed: {} numbers, as case.dimension is {}{}",
+                                           found.size(), dimension, dimension,
+                                           found.size() == 2 * dimension ? ". Write decimal points, not commas" : ""));
   }
   value = {found[0], found[1], found.size() > 2 ? found[2] : 0.0};
   return true;

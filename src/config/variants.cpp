@@ -87,7 +87,8 @@ toml::table parse(const std::string& text, const std::string& file) {
 }
 
 // File named by case.based_on, if any; `chain`: the files that led here.
-std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, const std::vector<fs::path>& chain) {
+std::optional<fs::path> base_of(const toml::table& root, const std::vector<CaseFile>& chain) {
+  const fs::path& file = chain.back().file;
   const auto* node = root.at_path("case.based_on").node();
   const auto* text = node == nullptr ? nullptr : node->as_string();
   if (text == nullptr || text->get().empty()) {
@@ -112,7 +113,7 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
     throw UserError(fmt::format("{}: a chain of {} files precedes it; allowed: {}. Combine some of them.", location,
                                 chain.size(), most_case_files));
   }
-  if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
+  if (std::any_of(chain.begin(), chain.end(), [&base](const CaseFile& each) { return each.file == base; })) {
     throw UserError(location + ": the chain of files forms a cycle. Remove based_on from one of the files.");
   }
   return base;
@@ -159,25 +160,23 @@ std::set<std::uint32_t> lines_not_given(std::string_view text) {
   return lines;
 }
 
-toml::table read_chain(const fs::path& file, LayeredCase& found) {
-  found.files.push_back(file);
-  const std::string text = read_text(file);
-  toml::table root = parse(text, file.string());
-  found.lines_not_given[file.string()] = lines_not_given(text);
-  const std::optional<fs::path> base = base_of(root, file, found.files);
-  if (!base) {
-    return root;
-  }
-  toml::table under = read_chain(*base, found);
-  merge_over(under, std::move(root), "");
-  return under;
-}
-
 }  // namespace
 
-LayeredCase read_with_bases(const fs::path& file) {
+std::vector<CaseFile> read_with_bases(const fs::path& file) {
+  std::vector<CaseFile> files;
+  for (std::optional<fs::path> next = file; next; next = base_of(parse(files.back().text, next->string()), files)) {
+    files.push_back({*next, read_text(*next)});
+  }
+  return files;
+}
+
+LayeredCase merged(const std::vector<CaseFile>& files) {
   LayeredCase result;
-  result.root = read_chain(file, result);
+  for (auto each = files.rbegin(); each != files.rend(); ++each) {
+    const std::string name = each->file.string();
+    merge_over(result.root, parse(each->text, name), "");
+    result.lines_not_given[name] = lines_not_given(each->text);
+  }
   return result;
 }
 

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "config/case_source.hpp"
 #include "config/toml.hpp"
 
 namespace thawslide::config {
 
 struct LayeredCase {
   toml::table root;
-  std::vector<std::filesystem::path> files;  // the case file, its base, the base of that ...
   // Lines of each file, by name, whose keys the program wrote as defaults.
   std::map<std::string, std::set<std::uint32_t>> lines_not_given;
 };
@@ -22,9 +22,11 @@ struct LayeredCase {
 // End of the line of such a key in the resolved case of a run.
 inline constexpr const char* not_given_mark = "not given";
 
-// Reads a case file as TOML and merges it over the file named by case.based_on, recursively. Nodes keep their original
-// locations. Throws UserError for a file that is unreadable, empty or not TOML, and for a base that is missing or forms
-// a cycle.
-LayeredCase read_with_bases(const std::filesystem::path& file);
+// Reads a case file, the file named by its case.based_on, the base of that ... Throws UserError for a file that is
+// unreadable, empty or not TOML, and for a base that is missing or forms a cycle.
+std::vector<CaseFile> read_with_bases(const std::filesystem::path& file);
+
+// Merges the first of these files over the others. Nodes keep their original locations.
+LayeredCase merged(const std::vector<CaseFile>& files);
 
 }  // namespace thawslide::config

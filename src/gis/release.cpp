@@ -40,6 +40,8 @@ Raster cropped(const Raster& thickness, const Raster& ground) {
   return part_of(thickness, window);
 }
 
+constexpr double thickest = 500.0;  // m: a raster with larger values contains elevations
+
 void check_volume(const config::Case& parameters, const std::string& name, const Raster& thickness) {
   const double volume = volume_of(thickness);
   const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
@@ -51,11 +53,14 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
     fail_at(parameters, area_key(parameters, name),
-            fmt::format("{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. Is "
-                        "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
-                        "larger body.{}.largest_volume.",
+            fmt::format("{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. {} "
+                        "If the volume is right, confirm it by a larger body.{}.largest_volume.",
                         area_file(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
-                        rounded_text(largest, 3), name));
+                        rounded_text(largest, 3),
+                        parameters.bodies.at(name).release.empty() && most > thickest
+                            ? "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness."
+                            : "Is the thickness in the wrong unit? Metres are needed.",
+                        name));
   }
 }
 

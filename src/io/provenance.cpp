@@ -160,7 +160,8 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   write_file_atomically(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
-std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs::path>& files) {
+std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs::path>& files,
+                                   const std::map<fs::path, std::string>& texts) {
   make_folder(folder / "inputs");
   std::vector<InputFile> inputs;
   std::set<std::string> names;
@@ -173,7 +174,8 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
                       file.string()));
     }
     THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
-    const std::string content = read_file(file);
+    const auto known = texts.find(file);
+    const std::string content = known == texts.end() ? read_file(file) : known->second;
     write_file_atomically(folder / "inputs" / name, content);
     inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -56,10 +57,10 @@ RunPart part_of_this_process();
 
 void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
 
-// Copies inputs into folder/inputs under unique names. Throws UserError for unreadable files, and for names of the
-// program's own temporary files, which a resume would remove.
-std::vector<InputFile> copy_inputs(const std::filesystem::path& folder,
-                                   const std::vector<std::filesystem::path>& files);
+// Copies inputs into folder/inputs under unique names; `texts`: contents of files that were read before. Throws
+// UserError for unreadable files, and for names of the program's own temporary files, which a resume would remove.
+std::vector<InputFile> copy_inputs(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
+                                   const std::map<std::filesystem::path, std::string>& texts = {});
 
 // Reads from folder/run.json: parts, inputs, status, message (control characters in these two replaced by '?'),
 // simulated time and steps; the rest is left empty. Throws UserError if it cannot be read or is invalid.

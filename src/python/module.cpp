@@ -2,15 +2,15 @@
 // form (python/thawslide/case.py, simulation.py).
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
-#include <nanobind/trampoline.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <initializer_list>
 #include <memory>
 #include <stdexcept>
@@ -19,8 +19,12 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/waiting_threads.hpp"
 #include "config/describe.hpp"
+#include "config/input_files.hpp"
+#include "config/overrides.hpp"
 #include "config/read_case.hpp"
+#include "python/observer.hpp"
 #include "run/block_model.hpp"
 #include "run/live_run.hpp"
 #include "run/run_loop.hpp"
@@ -34,108 +38,6 @@ using namespace nb::literals;
 namespace thawslide::python {
 
 namespace {
-
-// Observer implemented in Python. The steps run without the GIL; each call acquires it. An exception of a call or of a
-// signal handler interrupts the run after its present step, as Ctrl-C does, and is rethrown at the end (result_of).
-class PythonObserver : public run::Observer {
- public:
-  NB_TRAMPOLINE(run::Observer);
-
-  void text(const std::string& line) override {
-    call([&] { NB_OVERRIDE_PURE(text, line); });
-  }
-  void error(const std::string& line) override {
-    call([&] { NB_OVERRIDE_PURE(error, line); });
-  }
-  bool wants_progress(double /*time*/, double /*end*/) override { return is_due(last_progress_, progress_interval); }
-  void progress(const run::ProgressState& state) override {
-    call([&] { NB_OVERRIDE(progress, state); });
-  }
-  void end_progress() override {
-    call([&] { NB_OVERRIDE(end_progress); });
-  }
-  std::string interruption() override {
-    if (!exception_ && is_due(last_check_, check_interval)) {
-      call([] {
-        if (PyErr_CheckSignals() != 0) {
-          throw nb::python_error();
-        }
-      });
-    }
-    return interruption_;
-  }
-
-  [[nodiscard]] bool has_exception() const { return exception_ != nullptr; }
-
-  // Returns the result of work(), or rethrows an exception of the observer. Such an exception replaces an error of the
-  // run, which may follow from it; RunError is then its context.
-  template <class Work>
-  auto result_of(const Work& work) {
-    try {
-      if constexpr (std::is_void_v<decltype(work())>) {
-        work();
-        rethrow_exception();
-      } else {
-        auto result = work();
-        rethrow_exception();
-        return result;
-      }
-    } catch (const RunError& error) {
-      if (exception_) {
-        set_context(error);
-      }
-      rethrow_exception();
-      throw;
-    } catch (const UserError&) {
-      rethrow_exception();
-      throw;
-    }
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr double progress_interval = 0.2, check_interval = 0.05;  // wall-clock time [s]
-
-  void rethrow_exception() {
-    if (exception_) {
-      std::rethrow_exception(std::exchange(exception_, nullptr));
-    }
-  }
-  void set_context(const RunError& error) {
-    const nb::gil_scoped_acquire gil;
-    try {
-      std::rethrow_exception(exception_);
-    } catch (const nb::python_error& raised) {
-      nb::object context = nb::module_::import_("thawslide._core").attr("RunError")(error.what());
-      PyException_SetContext(raised.value().ptr(), context.release().ptr());
-    }
-  }
-
-  template <class Work>
-  void call(const Work& work) {
-    const nb::gil_scoped_acquire gil;
-    try {
-      work();
-    } catch (const nb::python_error& error) {
-      if (!exception_) {
-        interruption_ = nb::cast<std::string>(error.type().attr("__name__"));
-        exception_ = std::current_exception();
-      }
-    }
-  }
-  static bool is_due(Clock::time_point& last, double interval) {
-    const Clock::time_point now = Clock::now();
-    if (std::chrono::duration<double>(now - last).count() < interval) {
-      return false;
-    }
-    last = now;
-    return true;
-  }
-
-  Clock::time_point last_progress_ = Clock::now(), last_check_ = Clock::now();
-  std::string interruption_;
-  std::exception_ptr exception_;
-};
 
 template <class T>
 nb::object copied(const std::vector<T>& values, std::initializer_list<std::size_t> shape) {
@@ -263,6 +165,22 @@ nb::object field_view(Live& self, const std::string& name) {
   return memory.bytes == sizeof(std::int64_t) ? view(std::int64_t{}) : view(std::int32_t{});
 }
 
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+// Case from paths and texts of its files, and from `--set` texts and the folders of their paths.
+config::Case case_of(const Texts& files, const Texts& sets) {
+  std::vector<config::CaseFile> read;
+  for (const auto& [file, text] : files) {
+    read.push_back({file, text});
+  }
+  std::vector<config::Override> overrides;
+  for (const auto& [set, folder] : sets) {
+    overrides.push_back(config::parse_override(set));
+    overrides.back().folder = folder;
+  }
+  return config::case_of(read, overrides);
+}
+
 nb::dict columns_of(const std::vector<sim::HistoryRow>& rows) {
   nb::dict columns;
   for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
@@ -286,6 +204,7 @@ NB_MODULE(_core, module) {
   using namespace thawslide::python;
 
   module.attr("version") = version;
+  pthread_atfork(end_waiting_threads, nullptr, nullptr);
 
   nb::exception<UserError> user_error(module, "UserError", PyExc_ValueError);
   nb::exception<WriteError>(module, "WriteError", user_error.ptr());
@@ -306,9 +225,22 @@ NB_MODULE(_core, module) {
       .value("NOT_WRITTEN", ExitCode::not_written)
       .value("DEVICE_FAILED", ExitCode::device_failed);
 
-  module.def("read_case", [](const std::string& file, const std::vector<std::string>& sets) {
-    return config::read_case(file, sets);
+  module.def("read_case_files", [](const std::string& file) {
+    Texts files;
+    for (const config::CaseFile& each : config::read_case_files(file)) {
+      files.emplace_back(each.file.string(), each.text);
+    }
+    return files;
   });
+  module.def("case_of", [](const Texts& files, const Texts& sets) { return case_of(files, sets); });
+  module.def("input_files", [](const config::Case& parameters) {
+    std::vector<std::string> files;
+    for (const std::filesystem::path& file : config::input_files(parameters)) {
+      files.push_back(file.string());
+    }
+    return files;
+  });
+  module.def("schema_json", &config::schema_json);
   module.def("resolved_toml", [](const config::Case& parameters) { return config::resolved_toml(parameters, ""); });
 
   nb::class_<run::ProgressState>(module, "ProgressState")

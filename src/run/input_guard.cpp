@@ -13,8 +13,9 @@ namespace thawslide::run {
 namespace fs = std::filesystem;
 
 void require_readable_inputs(const config::Case& parameters) {
-  for (const fs::path& input : config::input_files(parameters)) {
-    if (access(input.c_str(), R_OK) != 0) {
+  for (const auto& [key, input] : config::input_files_by_key(parameters)) {
+    const bool was_read = key.empty() || key == "case.based_on";  // a case contains the text of its files
+    if (!was_read && access(input.c_str(), R_OK) != 0) {
       throw UserError(
           fmt::format("{} cannot be read: {}. A run keeps a copy of it.", input.string(), std::strerror(errno)));
     }

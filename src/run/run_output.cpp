@@ -75,7 +75,11 @@ void complete(io::Provenance& provenance, const sim::Simulation<Dim>& simulation
 // Writes inputs and resolved case of a new run to its folder; returns the provenance with its first part.
 io::Provenance first_part(const config::Case& parameters, const fs::path& folder) {
   io::Provenance provenance;
-  provenance.inputs = io::copy_inputs(folder, config::input_files(parameters));
+  std::map<fs::path, std::string> texts;
+  for (const config::CaseFile& each : parameters.case_files) {
+    texts[each.file] = each.text;
+  }
+  provenance.inputs = io::copy_inputs(folder, config::input_files(parameters), texts);
   write_file_atomically(folder / "case.toml", config::resolved_toml(parameters, "inputs"));
   provenance.parts.push_back(io::part_of_this_process());
   provenance.parts.back().case_sha256 = io::sha256_of_file(folder / "case.toml");

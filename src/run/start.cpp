@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "config/input_limits.hpp"
+#include "config/notices.hpp"
 #include "io/run_folder.hpp"
 #include "run/device_choice.hpp"
 #include "run/disk_need.hpp"
@@ -22,7 +23,8 @@ ExitCode start_run(const config::Case& parameters, const StartOptions& options, 
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Warnings warnings(&observer);
-    sim::Simulation<Dim> simulation(parameters, read_map_files(parameters, warnings));
+    sim::Simulation<Dim> simulation = config::with_unusual_numbers(
+        parameters, [&] { return sim::Simulation<Dim>(parameters, read_map_files(parameters, warnings)); });
     {
       sim::RunRecords<Dim> records(simulation, simulation.site());  // throws before any file is written or removed
       records.start(simulation);

@@ -35,13 +35,17 @@ bool has_boiled_dry(const physics::BandColumn& column) {
   return false;
 }
 
-std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
+const char* mixing_advice(bool mixes) {
+  return mixes ? "a smaller band.mixing_slip" : "one that mixes (band.mixing_slip)";
+}
+
+std::string of_dry(double time, std::ptrdiff_t dry, double hottest, bool mixes) {
   return fmt::format(
       "warning: at {} s {} of the base {} boiled dry, and the hottest is at {:.0f} C. Without water, boiling no longer "
-      "limits temperature and friction. A thicker band (band.thickness) or one that mixes (band.mixing_slip) keeps it "
+      "limits temperature and friction. A thicker band (band.thickness) or {} keeps it "
       "cooler; docs/choosing-the-base.md.",
-      rounded_text(time, 3), dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have",
-      hottest);
+      rounded_text(time, 3), dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest,
+      mixing_advice(mixes));
 }
 
 std::string of_hot(double time) {
@@ -52,11 +56,11 @@ std::string of_hot(double time) {
       rounded_text(time, 3), count_text(unphysical_temperature), load / 1e6);
 }
 
-std::string of_hotter(double time, double limit) {
+std::string of_hotter(double time, double limit, bool mixes) {
   return fmt::format(
       "warning: at {} s the hottest part of the base passes {} C. Nothing in the model limits the temperature of a dry "
-      "base, and this is not physical: use a thicker band (band.thickness) or one that mixes (band.mixing_slip).",
-      rounded_text(time, 3), count_text(limit));
+      "base, and this is not physical: use a thicker band (band.thickness) or {}.",
+      rounded_text(time, 3), count_text(limit), mixing_advice(mixes));
 }
 
 std::string of_no_boiling(double time, double limit, const char* reason) {
@@ -79,6 +83,7 @@ template <int Dim>
 std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
   const double time = simulation.time();
   const auto* columns = simulation.band_columns();
+  const bool mixes = std::isfinite(simulation.parameters().band.mixing_slip);
   const bool boils = columns != nullptr && simulation.parameters().heat.steam;
   const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().max_temperature;
   const double first = boils ? unphysical_temperature : boiling;
@@ -89,7 +94,7 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
     if (dry > 0) {
       is_dry_ = true;
       passed_limit_ = std::max({passed_limit_, first, limit_below(hottest, first)});
-      return of_dry(time, dry, hottest);
+      return of_dry(time, dry, hottest, mixes);
     }
   }
   const double limit = limit_below(hottest, first);
@@ -101,7 +106,7 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
     return of_no_boiling(time, limit,
                          columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false");
   }
-  return limit > first ? of_hotter(time, limit) : of_hot(time);
+  return limit > first ? of_hotter(time, limit, mixes) : of_hot(time);
 }
 
 std::string StepWarnings::warning_of_removal(double time, const sim::Removed& removed) {

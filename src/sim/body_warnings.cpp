@@ -51,18 +51,22 @@ std::string resting_warning(const config::Case& parameters, const BodyFigures& b
         "out of the domain. Set terrain.type, or close the lower side.",
         config::location_of(parameters, key), key);
   }
+  const config::BodyShape shape = parameters.bodies.at(body.name).shape;
+  const bool follows = shape == config::BodyShape::surface || shape == config::BodyShape::release;
   if (body.clearance > touching * body.spacing) {
     const double time = std::sqrt(2.0 * body.clearance / parameters.general.gravity);
     return fmt::format(
         "{}: {} floats: its underside is {} m above what is below it, and it falls for {:.2g} s before it touches. "
-        "Place it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
-        config::location_of(parameters, key), key, rounded_text(body.clearance, 3), time);
+        "Place it on that{}.",
+        config::location_of(parameters, key), key, rounded_text(body.clearance, 3), time,
+        follows ? "" : ", or set shape = \"surface\" or \"release\", which follow the ground");
   }
   if (body.resting_fraction < least_resting) {
     return fmt::format(
-        "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one particle spacing. Use "
-        "a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.",
-        config::location_of(parameters, key), key, 100.0 * body.resting_fraction, body.spacing);
+        "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one particle spacing. {}",
+        config::location_of(parameters, key), key, 100.0 * body.resting_fraction, body.spacing,
+        follows ? "Correct the terrain or the surface between them."
+                : "Use a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.");
   }
   return "";
 }

@@ -13,15 +13,17 @@ namespace thawslide::sim {
 namespace {
 
 // Advice on a limit that has fallen to a small fraction of its initial value.
-std::string advice_on(LimitKind kind) {
+std::string advice_on(LimitKind kind, bool removes) {
+  const std::string remove = removes ? "emove such particles with a smaller guards.largest_volume."
+                                     : "emove such particles with guards.volume = \"remove\" and a "
+                                       "guards.largest_volume.";
   switch (kind) {
     case LimitKind::wave:
-      return "Waves are faster in lighter material: the particle has expanded. Remove such particles "
-             "with guards.volume = \"remove\" and a guards.largest_volume.";
+      return "Waves are faster in lighter material: the particle has expanded. R" + remove;
     case LimitKind::viscosity:
       return "Try a smaller viscosity_number or viscosity_time of the material. Its limit falls with the square of the "
-             "wave speed, which grows in separated material. Alternatively, remove such particles with "
-             "guards.volume = \"remove\" and a guards.largest_volume.";
+             "wave speed, which grows in separated material. Alternatively, r" +
+             remove;
     case LimitKind::particle_speed:
       return "The particle detached from the flow, or the run became unstable: try half of time.safety, or a larger "
              "viscosity_number or viscosity_time of the material.";
@@ -104,7 +106,8 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
   throw RunError(
       fmt::format("the run failed at t = {:.6g} s (step {}): the next step would be {:.3g} s, {}. It is set "
                   "by {}{}. {}",
-                  time_, step_number_, dt, why, limit.what, where, advice_on(limit.kind)));
+                  time_, step_number_, dt, why, limit.what, where,
+                  advice_on(limit.kind, parameters_.guards.volume == config::Policy::remove)));
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                               \

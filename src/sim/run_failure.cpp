@@ -207,18 +207,19 @@ std::string Simulation<Dim>::step_to_halve() const {
 
 template <int Dim>
 std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
+  const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
   if (is_too_soft(p)) {
-    const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
     return fmt::format(
         "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa) and collapses under its own weight. Typical "
         "values for broken rock and ice are 1e7 Pa or more.",
         material, parameters_.materials.at(material).youngs_modulus);
   }
+  const bool blends = parameters_.mechanics.transfer == config::Transfer::blend;
   return fmt::format(
       "Likely cause: the step is too long for the material, the material is too soft for its load, or it has "
-      "separated. Try half of {}, a larger viscosity_number or viscosity_time of the material, or "
-      "mechanics.transfer = \"blend\" with mechanics.pic_fraction = 0.02.",
-      step_to_halve());
+      "separated. Try half of {}, a larger viscosity_number or viscosity_time of the material, or {}.",
+      step_to_halve(),
+      blends ? "a larger mechanics.pic_fraction" : "mechanics.transfer = \"blend\" with mechanics.pic_fraction = 0.02");
 }
 
 template <int Dim>

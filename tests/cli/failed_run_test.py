@@ -79,6 +79,24 @@ def test_a_step_too_long_for_the_load_is_named_as_cause(thawslide: Program, smal
     assert reported[8].startswith("the step is too long for the material")
 
 
+@pytest.mark.parametrize(
+    ("more", "advice"),
+    [
+        ({"mechanics__transfer": "blend", "mechanics__pic_fraction": 0.001}, "or a larger mechanics.pic_fraction."),
+        ({"material__rock__viscosity_time": 1e-5}, "a larger viscosity_time in the material, or mechanics.transfer"),
+        ({"time__stepping": "adaptive", "time__safety": 0.9}, "Try half of time.safety, "),
+    ],
+)
+def test_advice_names_no_value_that_is_set(
+    thawslide: Program, small_case: Path, tmp_path: Path, more: dict[str, object], advice: str
+) -> None:
+    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *sets(**{**FALL, **more}))
+    if outcome.returncode == 3 and "Likely cause" in outcome.stderr:
+        assert advice in outcome.stderr
+    else:
+        pytest.fail(outcome.stderr + outcome.stdout)
+
+
 # A block at 100 m/s whose friction pore pressure does not reduce: a band of 1 mm boils dry within half a second.
 FAST = sets(
     grid__max="[220.0, 10.0]", body__block__velocity="[100.0, 0.0]", basal__friction="coefficient",

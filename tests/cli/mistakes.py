@@ -117,6 +117,19 @@ a profile with semicolons
     distance_m,terrain_elevation_m[,surface_elevation_m], separated by commas.
 """
 FURTHER = """
+a decimal comma in quotes
+  cell = 1.0 -> cell = "1,5"
+    11:8: grid.cell is the text "1,5"; allowed: a number, > 0 [m]; write a decimal point: 1.5.
+
+decimal commas in an array
+  min = [0.0, -2.0] -> min = [0,0, -2,0]
+    12:7: grid.min is an array of 4 numbers; allowed: 2 numbers, as case.dimension is 2. Write decimal points, not
+    commas.
+
+a decimal comma of an option
+  --set grid.cell=1,5
+    --set grid.cell=1,5: grid.cell is the text "1,5"; allowed: a number, > 0 [m]; write a decimal point: 1.5.
+
 an equals sign twice
   cell = 1.0 -> cell = = 1.0
     11:8: this is not TOML: Error while parsing value: could not determine value type. Correct the line; see
@@ -190,6 +203,8 @@ a particle faster than the step allows
   --set 'body.block.velocity=[1000.0,0.0]'
     6:8: time.step is 0.001 s, above the limit of 0.0005 s set by the particle speed of 1,000 m/s. Use a smaller
     time.step, or time.stepping = "adaptive".
+    warning: --set body.block.velocity=[1000.0,0.0]: body.block.velocity is 1000 m/s; plausible: 0.001 to 120 m/s. If it
+    is in mm/s, it is 1 m/s; in cm/s, it is 10 m/s; in m/h, it is 0.2778 m/s; in m/day, it is 0.01157 m/s.
 """
 
 
@@ -214,7 +229,7 @@ class Mistake:
 
     def message(self, folder: Path) -> str:
         """Return the complete message about the case in a folder."""
-        lines = re.sub(r"(?:^| )(\d+:\d+: |--set \S+=\S+: )", r"\n\1", self.text).strip()
+        lines = re.sub(r"(?:^| )(\d+:\d+: |(?:warning: )?--set \S+=\S+: )", r"\n\1", self.text).strip()
         located = re.sub(r"^(?=\d+:\d+: )", "{case}/case.toml:", lines, flags=re.MULTILINE)
         return f"error: {located}\n".replace("{case}", str(folder))
 

@@ -44,8 +44,11 @@ def cross(features: list[dict[str, Any]]) -> None:
 
 
 TOO_LARGE = """--release: {}: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume allows
-    200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a
-    larger --largest-volume.\n""".format
+    200,000,000 m3. {} If the volume is right, confirm it by a larger --largest-volume.\n""".format
+IN_ANOTHER_UNIT = "Is the thickness in the wrong unit? Metres are needed."
+A_DEM = "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness."
+SWAPPED = """--dem: release.geojson is not a raster, and dem.tif is one: the DEM and the release are swapped. Give
+    --dem dem.tif --release release.geojson.\n"""
 MERCATOR = """--dem: dem.tif: the coordinates are in Web Mercator (EPSG:3857), where lengths at latitude 42 are 1.35
     times too long; allowed: a map projection that keeps lengths. Reproject: gdalwarp -t_srs EPSG:32631 -tr 7.4 7.4 -r
     bilinear dem.tif dem-EPSG32631.tif\n"""
@@ -58,8 +61,8 @@ NO_CRS = """--dem: bare.tif: the file names no coordinate reference system (x fr
 WRONG_CRS = """--dem: wrong.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 411995 to
     412895, y from 5159995 to 5160595). Set --crs "EPSG:..." to the system of the coordinates, which the data provider
     states.\n"""
-NO_THICKNESS = """--release: release.geojson: there is no attribute 'thickness', which is needed without --thickness;
-    the file has: name. Correct the name, or add the attribute.\n"""
+NO_THICKNESS = """--release: release.geojson: there is no attribute 'thickness', which contains the thickness if
+    --thickness is not given; the file has: name. Give the thickness with --thickness, or add the attribute.\n"""
 EDGE = """--release: edge.geojson: the release reaches the outermost points of the DEM in the west (needed: at least
     10 m, one cell, beyond the release). Use a DEM that covers the flow path too.\n"""
 OUTSIDE = "--release: outside.geojson: the release lies outside the DEM, by 4,230 m in the east; found: x from 417000"
@@ -67,12 +70,13 @@ PARTLY_OUTSIDE = "--release: outside.geojson: the release lies partly outside th
 TINY = "--release: tiny.geojson: the release is smaller than a cell of the DEM (9 m2; 100 m2)"
 CROSSES = "--release: release.geojson: polygon 1 (slide) crosses itself at or near 412260 5160300."
 HELP = "Run with --help for more information.\n"
+COMMA = "allowed: a number above 0, without a unit; write a decimal point"
 # Messages of `new`, and its arguments. A text that ends with a line break is the whole message. Others are its start,
 # because tests/cpp/gis compares the rest.
 REFUSED: list[tuple[str, Callable[[Slope], dict[str, Any]]]] = [
     (RASTER, lambda slope: {"release": raster(slope, THICKNESS), "thickness": 3}),
-    (TOO_LARGE("thick.tif"), lambda slope: {"release": raster(slope, 1000 * THICKNESS), "thickness": None}),
-    (TOO_LARGE("release.geojson"), lambda _: {"thickness": 1000 * THICKNESS}),
+    (TOO_LARGE("thick.tif", A_DEM), lambda slope: {"release": raster(slope, 1000 * THICKNESS), "thickness": None}),
+    (TOO_LARGE("release.geojson", IN_ANOTHER_UNIT), lambda _: {"thickness": 1000 * THICKNESS}),
     (
         "--release: thick.tif: the thickness is not above 0",
         lambda slope: {"release": raster(slope, 0.0), "thickness": None},
@@ -100,6 +104,10 @@ REFUSED: list[tuple[str, Callable[[Slope], dict[str, Any]]]] = [
     ),
     (NO_THICKNESS, lambda _: {"thickness": None}),
     (f"--thickness: 0 found; allowed: above 0. {HELP}", lambda _: {"thickness": 0}),
+    (SWAPPED, lambda slope: {"dem": slope.release(), "release": slope(), "thickness": None}),
+    (f"--thickness: 20,5 found; {COMMA}: 20.5. {HELP}", lambda _: {"thickness": "20,5"}),
+    (f"--cell: 12,5 found; {COMMA}: 12.5. {HELP}", lambda _: {"words": ["--cell", "12,5"]}),
+    (f"--reach-angle: 8,5 found; {COMMA}: 8.5. {HELP}", lambda _: {"words": ["--reach-angle", "8,5"]}),
     (f"--thickness: 20m found; allowed: a number above 0, without a unit. {HELP}", lambda _: {"thickness": "20m"}),
     (OUTSIDE, lambda slope: {"release": rectangle(slope, "outside", 5000.0, 0.0)}),
     (PARTLY_OUTSIDE, lambda slope: {"release": rectangle(slope, "outside", 820.0, 0.0)}),

@@ -10,6 +10,7 @@ import pandas as pd
 from cluster import ALLOWED_FAILURES, cluster
 
 import thawslide
+from thawslide import Case
 from thawslide.sweeps.engine import MOST_DEATHS
 from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.member import Task, perform
@@ -39,7 +40,7 @@ def test_a_cluster_and_one_process_give_the_same_table(slope: Path, tmp_path: Pa
     folder = SweepFolder(tmp_path / "one")
     (folder.path / "members").mkdir(parents=True)
     for number, angle in enumerate(VARY["basal.friction_angle"]):
-        perform(Task(number, folder.path, str(slope), {"basal.friction_angle": angle}))  # in this process
+        perform(Task(number, folder.path, Case(slope, {"basal.friction_angle": angle})))  # in this process
     expected = thawslide.sweep(slope, tmp_path / "local", vary=VARY, workers=1, progress=False)
     pd.testing.assert_frame_equal(found.drop(columns="wall_s"), expected.drop(columns="wall_s"))
     for number in range(len(found)):

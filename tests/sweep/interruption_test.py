@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import thawslide
+from thawslide import Case
 from thawslide.errors import ReportError
 from thawslide.sweeps.folder import DONE, RUNNING, SweepFolder
 from thawslide.sweeps.member import MemberInterruptedError, Task, perform
@@ -19,10 +20,11 @@ from thawslide.sweeps.member import MemberInterruptedError, Task, perform
 ON_FULL_DISK = """
 import resource, sys
 from pathlib import Path
+from thawslide import Case
 from thawslide.sweeps.member import MemberInterruptedError, Task, perform
 resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
 try:
-    perform(Task(0, Path(sys.argv[1]), sys.argv[2], {}))
+    perform(Task(0, Path(sys.argv[1]), Case(sys.argv[2])))
 except MemberInterruptedError as error:
     print(error)
 """
@@ -35,7 +37,7 @@ def test_a_run_on_a_full_disk_continues_later(slope: Path, tmp_path: Path) -> No
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert "File too large" in done.stdout, done.stderr
     assert folder.record(0)["status"] == RUNNING
-    record = perform(Task(0, folder.path, str(slope), {}))
+    record = perform(Task(0, folder.path, Case(slope)))
     assert record["status"] == DONE and record["starts"] == 2
 
 
@@ -68,7 +70,7 @@ def test_without_locks_the_named_process_decides(slope: Path, tmp_path: Path, mo
     folder = SweepFolder(tmp_path / "sweep")
     lock = folder.run_folder(0) / "run.lock"
     lock.parent.mkdir(parents=True)
-    task = Task(0, folder.path, str(slope), {})
+    task = Task(0, folder.path, Case(slope))
     for process in (f"process {os.getppid()} on {socket.gethostname()}", "process 1 on another-machine"):
         lock.write_text(f"{process}\n")
         with pytest.raises(MemberInterruptedError, match=f"written by {process}, .* remove .*run.lock"):

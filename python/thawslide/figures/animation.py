@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any, cast
 
 import imageio_ffmpeg
-import matplotlib as mpl
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -24,7 +23,7 @@ from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import DEPTH_AVERAGED_SPEED, columns_on, where_thick
-from thawslide.figures.style import BLUE, RED, STYLE, disable_formulas, time_axis, time_line
+from thawslide.figures.style import BLUE, RED, common_style, disable_formulas, time_axis, time_line
 from thawslide.maps import Map
 from thawslide.run_folder import Run
 
@@ -57,7 +56,7 @@ class Animation:
 
     def frames(self, dpi: int) -> Iterator[Pixels]:
         """Yield the frames in order, each of shape (height, width, 3), with even height and width for the codec."""
-        with mpl.rc_context(cast(Any, STYLE)):
+        with common_style():
             image = _Image(self.site, min(dpi, _LARGEST_DPI))
             disable_formulas(image.page.figure)
             for index in self.indices:

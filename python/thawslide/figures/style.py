@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import wraps
-from typing import Any, ParamSpec, cast
+from os import PathLike
+from typing import IO, Any, ParamSpec, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -65,12 +67,27 @@ STYLE: dict[str, Any] = {
 }
 
 
+@contextmanager
+def common_style() -> Iterator[None]:
+    """Apply the common style in place of all settings of the user, and restore these at the end."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(cast(Any, STYLE))
+        yield
+
+
+def save_figure(figure: Figure, file: str | PathLike[str] | IO[bytes], **named: Any) -> None:
+    """Write a figure in the common style, which also determines what is rendered at this time."""
+    with common_style():
+        figure.savefig(file, **named)
+
+
 def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
     """Return a function that plots in the common style and leaves matplotlib's own settings as they are."""
 
     @wraps(draw)
     def inside(*arguments: Arguments.args, **named: Arguments.kwargs) -> Figure:
-        with mpl.rc_context(cast(Any, STYLE)):
+        with common_style():
             figure = draw(*arguments, **named)
             disable_formulas(figure)
             for axes in figure.axes:

@@ -13,6 +13,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from thawslide.figures.style import save_figure
+
 _TYPES = {".png": "image/png", ".mp4": "video/mp4"}
 # Browsers then refuse to load anything that is not part of the page.
 _SELF_CONTAINED = (
@@ -61,7 +63,7 @@ def file_data(path: Path) -> str:
 def drawn_data(figure: Figure, dpi: int) -> str:
     """Return a figure as the data address of an image."""
     image = BytesIO()
-    figure.savefig(image, format="png", dpi=dpi)
+    save_figure(figure, image, format="png", dpi=dpi)
     return data_address(image.getvalue(), _TYPES[".png"])
 
 

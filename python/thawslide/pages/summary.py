@@ -5,9 +5,8 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
@@ -15,7 +14,7 @@ from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError
 from thawslide.figures.class_maps import Classes, arrival_classes, class_map, draw_classes, thickness_classes
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.style import BLUE, NOTE, STYLE, disable_formulas, wrapped
+from thawslide.figures.style import BLUE, NOTE, common_style, disable_formulas, wrapped
 from thawslide.maps import on_map
 from thawslide.pages.markup import drawn_data, figure_part, page_frame, table
 from thawslide.pages.summary_text import PlainNumber, arrival_rows, limits, origin, plain_numbers, scenario
@@ -107,7 +106,7 @@ def _page(summary: Summary, dpi: int) -> str:
 def _write_pdf(summary: Summary, path: Path, dpi: int) -> None:
     """Write the two pages; the file has no date, to be the same for the same run."""
     with (
-        mpl.rc_context(cast(Any, STYLE)),
+        common_style(),
         PdfPages(path, metadata={"Title": summary.title, "CreationDate": None}) as document,
     ):
         for sheet in (_first_sheet(summary), _second_sheet(summary)):

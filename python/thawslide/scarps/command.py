@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from dataclasses import MISSING, fields
 from pathlib import Path
 
-from thawslide.errors import ReportError, nearest, printable, quoted
+from thawslide.commands import print_line
+from thawslide.errors import ReportError, nearest, quoted
 from thawslide.number_text import plain_text
 from thawslide.scarps.output import outline_file, require_output, write_release
 from thawslide.scarps.picture import write_picture
@@ -30,13 +31,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if given.picture:
             write_picture(release, given.picture)
     except ReportError as error:
-        print(printable(f"thawslide scarp: error: {error}"), file=sys.stderr)
+        print_line(f"thawslide scarp: error: {error}", sys.stderr)
         return 2
     for line in _lines(release, given):
-        print(printable(line))
+        print_line(line)
     if release.parts > 1:
         warning = f"the release has {release.parts} separate parts. To select one, limit the release by --within."
-        print(f"thawslide scarp: warning: {warning}", file=sys.stderr)
+        print_line(f"thawslide scarp: warning: {warning}", sys.stderr)
     return 0
 
 

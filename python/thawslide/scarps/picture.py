@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from thawslide.arrays import Numbers
 from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError
-from thawslide.figures.style import COLUMN_WIDTH, GROUND, GROUND_LINE, ORANGE, RED, styled
+from thawslide.figures.style import COLUMN_WIDTH, GROUND, GROUND_LINE, ORANGE, RED, save_figure, styled
 from thawslide.relief import contour_levels, hillshade
 from thawslide.scarps.release import Release
 
@@ -27,7 +27,7 @@ def write_picture(release: Release, path: Path) -> None:
     """Write the figure of a release as a PNG file."""
     try:
         with atomic_file(path) as temporary:
-            _plotted(release).savefig(temporary, dpi=_DPI)
+            save_figure(_plotted(release), temporary, dpi=_DPI)
     except OSError as error:
         raise ReportError(
             f"{path}: cannot be written ({error.strerror or error}). Select another --picture."

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import hashlib
-import os
-import shutil
-import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -19,17 +19,19 @@ from thawslide import _core
 from thawslide.case import Case
 from thawslide.errors import ReportError
 from thawslide.simulation import print_message
-from thawslide.sweeps.declared import declared_columns
+from thawslide.sweeps.declared import declared_columns, limits_of_key
 from thawslide.sweeps.design import FACTORIAL, Design, Member, parse_sample
 from thawslide.sweeps.expressions import Expression
-from thawslide.sweeps.folder import DONE, FAILED, FINISHED, SweepFolder
+from thawslide.sweeps.folder import DONE, FAILED, FINISHED, INPUTS, SweepFolder
 from thawslide.sweeps.labels import NUMBERS
 from thawslide.sweeps.member import KEEPS, MemberInterruptedError, Task, tidy
 from thawslide.sweeps.outcome import write_outcome
 from thawslide.sweeps.page import NOT_RESULTS
 from thawslide.sweeps.progress import Progress, standard_error
 from thawslide.sweeps.results import table_of, write_table
-from thawslide.sweeps.variables import Variable, distribution, levels
+from thawslide.sweeps.variables import Levels, Variable, distribution, levels, truncated
+
+_DIGITS = 16  # of a digest in the plan
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,8 @@ def sweep(
     lognormal: Mapping[str, tuple[float, float]] | None = None,
     sample: str | None = None,
     seed: int = 0,
+    tie: Mapping[str, str] | None = None,
+    correlate: Mapping[tuple[str, str], float] | None = None,
     block: bool = False,
     columns: Mapping[str, str] | None = None,
     keep: str = "maps",
@@ -77,18 +81,22 @@ def sweep(
     cases: a case, or several as values of the variable `case`. output: the folder of the sweep, by default
     runs/NAME-sweep; the same call continues an interrupted sweep in it. vary: lists of values. ranges, normal,
     lognormal: pairs of numbers that describe distributions. sample: METHOD:N, without it the design is full factorial.
-    seed: seed of the sample. block: simulate a rigid block instead. columns: expressions of history columns by name.
-    keep: "maps", "all" or "none". results: columns whose sensitivity the page shows. thresholds: thresholds of the
-    probability maps, by "thickness" and "speed". workers: processes, 0: one per core. scheduler: address of a Dask
-    scheduler. max_failures: the sweep ends if more members fail. retry_failed: repeats members that have failed. Raises
-    UserError before any member runs, and ReportError for an invalid design.
+    seed: seed of the sample. tie: expressions of other keys by key. correlate: rank correlations by pairs of keys.
+    block: simulate a rigid block instead. columns: expressions of history columns by name. keep: "maps", "all" or
+    "none". results: columns whose sensitivity the page shows. thresholds: thresholds of the probability maps, by
+    "thickness" and "speed". workers: processes, 0: one per core. scheduler: address of a Dask scheduler. max_failures:
+    the sweep ends if more members fail. retry_failed: repeats members that have failed. Raises UserError before any
+    member runs, and ReportError for an invalid design.
     """
     files = [cases] if isinstance(cases, str | PathLike) else list(cases)
     variables: list[Variable] = [levels(key, list(values)) for key, values in (vary or {}).items()]
     for kind, pairs in (("range", ranges), ("normal", normal), ("lognormal", lognormal)):
         variables += [distribution(kind, key, float(pair[0]), float(pair[1])) for key, pair in (pairs or {}).items()]
     method, count = parse_sample(sample) if sample else (FACTORIAL, 0)
-    design = Design(tuple(absolute_case(file) for file in files), tuple(variables), method, count, seed)
+    ties = tuple(Expression(key, text, "--tie") for key, text in (tie or {}).items())
+    correlations = tuple((*pair, float(value)) for pair, value in (correlate or {}).items())
+    paths = tuple(absolute_case(file) for file in files)
+    design = Design(paths, tuple(variables), method, count, seed, ties, correlations)
     options = Options(
         output=None if output is None else Path(output),
         is_block=block,
@@ -116,13 +124,16 @@ def run_sweep(design: Design, options: Options) -> tuple[SweepFolder, pd.DataFra
     """Validate all members, run those that have not finished, and write the table."""
     if options.keep not in KEEPS:
         raise ReportError(f"--keep: invalid (found {options.keep}; allowed {', '.join(KEEPS)}). Correct it.")
+    design = _within_limits(design, options.report)
     members = design.members()
-    first = validated(members)
+    cases = validated(members)
     _require_new_names(options.expressions, members[0].changes)
     _require_columns(options)
-    folder = SweepFolder((options.output or Path(f"{_core.run_folder(first._core)}-sweep")).absolute())
-    folder.start(plan_of(design, members, options))
-    tasks = [_task(member, folder, options) for member in members]
+    folder = SweepFolder((options.output or Path(f"{_core.run_folder(cases[0]._core)}-sweep")).absolute())
+    changed = folder.start(plan_of(design, members, options, cases))
+    if changed:
+        options.report(f"note: {len(changed)} of {len(members)} members run again, because their inputs have changed")
+    tasks = [_task(member, case, folder, options) for member, case in zip(members, cases, strict=True)]
     if options.retries_failed:
         _forget_failed(folder, tasks)
     _execute(folder, tasks, members, options)
@@ -133,47 +144,57 @@ def run_sweep(design: Design, options: Options) -> tuple[SweepFolder, pd.DataFra
     return folder, table
 
 
-def validated(members: Sequence[Member]) -> Case:
-    """Check the case of each member, and return that of the first; UserError for the first invalid one."""
+def _within_limits(design: Design, report: Callable[[str], None]) -> Design:
+    """Return the design with distributions truncated at the limits of their keys, with a note for each."""
+    variables = []
+    for variable in design.variables:
+        low, high = (-math.inf, math.inf) if isinstance(variable, Levels) else limits_of_key(variable.key)
+        variables.append(truncated(variable, low, high))
+        if variables[-1] != variable:
+            ends = [f"{variables[-1].at(probability):.4g}" for probability in (0.0, 1.0)]
+            report(f"note: {variable.key}: the distribution is truncated to {' to '.join(ends)}, the allowed values")
+    return replace(design, variables=tuple(variables))
+
+
+def validated(members: Sequence[Member]) -> list[Case]:
+    """Return the case of each member; UserError for the first invalid one."""
     if not members:
         raise ReportError("no members. Vary at least one key.")
-    first = Case(members[0].case_file, members[0].changes)
-    for member in members[1:]:
-        Case(member.case_file, member.changes)
-    return first
+    originals = {file: Case(file) for file in {member.case_file: None for member in members}}
+    cases = []
+    for member in members:
+        case = originals[member.case_file].copy()
+        case.change(member.changes)
+        cases.append(copy.copy(case))  # without the values read, which need more memory
+    return cases
 
 
-def plan_of(design: Design, members: Sequence[Member], options: Options) -> dict[str, Any]:
-    """Return the values that a repeated command must have in common with the first one."""
-    firsts = {member.case_file: member for member in reversed(members)}  # the first one of each case
+def plan_of(
+    design: Design, members: Sequence[Member], options: Options, cases: Sequence[Case] | None = None
+) -> dict[str, Any]:
+    """Return the values that a repeated command must have in common with the first one.
+
+    `inputs`: one digest per member. A member whose digest differs runs again.
+    """
+    digest = cache(lambda file: hashlib.sha256(Path(file).read_bytes()).digest())
     return {
         "version": _core.version,
+        "program": digest(_core.__file__).hex(),  # of the build, and therefore of its compiler and settings
         "design": design.as_table(),
         "block": options.is_block,
         "columns": {each.name: each.text for each in options.expressions},
         "members": design.size,
-        "case_contents": {member.case_file: _digest(member) for member in firsts.values()},
+        INPUTS: [_digest(case, digest) for case in cases or validated(members)],
     }
 
 
-def _digest(member: Member) -> str:
-    """Return the SHA-256 of a resolved case and of the files that it names."""
-    text = Case(member.case_file, member.changes).to_toml()
-    digest = hashlib.sha256(text.encode())
-    for value in _texts(tomllib.loads(text)):
-        path = Path(member.case_file).parent / value
-        # Path.is_file raises OSError for a text that is too long for a name.
-        if os.path.isfile(path):  # noqa: PTH113
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
-
-
-def _texts(value: object) -> Iterator[str]:
-    if isinstance(value, str):
-        yield value
-    elif isinstance(value, dict | list):
-        for each in value.values() if isinstance(value, dict) else value:
-            yield from _texts(each)
+def _digest(case: Case, digest: Callable[[str], bytes]) -> str:
+    """Return a digest of a resolved case and of all its input files; the case files are part of the former."""
+    content = hashlib.sha256(case.to_toml().encode())
+    for file in case.input_files:
+        if file not in case.case_files:
+            content.update(digest(file))
+    return content.hexdigest()[:_DIGITS]
 
 
 def _require_new_names(expressions: Sequence[Expression], changes: Mapping[str, Any]) -> None:
@@ -189,18 +210,15 @@ def _require_columns(options: Options) -> None:
         each.require_columns(known)
 
 
-def _task(member: Member, folder: SweepFolder, options: Options) -> Task:
+def _task(member: Member, case: Case, folder: SweepFolder, options: Options) -> Task:
     expressions = {each.name: each.text for each in options.expressions}
-    return Task(
-        member.number, folder.path, member.case_file, member.changes, options.is_block, expressions, options.keep
-    )
+    return Task(member.number, folder.path, case, options.is_block, expressions, options.keep)
 
 
 def _forget_failed(folder: SweepFolder, tasks: Sequence[Task]) -> None:
     for task in tasks:
         if folder.record(task.number)["status"] == FAILED:
-            shutil.rmtree(folder.run_folder(task.number), ignore_errors=True)
-            folder.record_file(task.number).unlink()
+            folder.forget(task.number)
 
 
 def _execute(folder: SweepFolder, tasks: Sequence[Task], members: Sequence[Member], options: Options) -> None:

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from thawslide._core import UserError
-from thawslide.errors import ReportError, nearest, printable, quoted
+from thawslide.commands import print_line
+from thawslide.errors import ReportError, nearest, quoted
 from thawslide.sweeps.api import Options, absolute_case, run_sweep
-from thawslide.sweeps.design import FACTORIAL, METHODS, Design, parse_sample
+from thawslide.sweeps.design import FACTORIAL, METHODS, Design, parse_correlation, parse_sample
 from thawslide.sweeps.expressions import Expression
 from thawslide.sweeps.folder import DONE, FAILED
 from thawslide.sweeps.member import KEEPS
@@ -29,7 +30,18 @@ from thawslide.sweeps.variables import (
 from thawslide.text_files import MEGABYTE, is_number, read_text
 
 _DISTRIBUTIONS = ("range", "normal", "lognormal")
-_KEYS = ("cases", "sample", "seed", "block", "set", "vary", *_DISTRIBUTIONS, "column")  # of the table [sweep]
+_KEYS = (
+    "cases",
+    "sample",
+    "seed",
+    "block",
+    "set",
+    "vary",
+    *_DISTRIBUTIONS,
+    "tie",
+    "correlate",
+    "column",
+)  # of the table [sweep]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -55,7 +67,7 @@ _MOST_ERRORS = 10  # printed; the table contains all
 
 
 def _print(line: str) -> None:
-    print(printable(line), file=sys.stderr, flush=True)
+    print_line(line, sys.stderr)
 
 
 def _is_sweep_file(cases: Sequence[str]) -> bool:
@@ -95,7 +107,9 @@ def _from_arguments(given: argparse.Namespace) -> tuple[Design, Options]:
         variables += [parse_distribution(kind, text) for text in getattr(given, kind)]
     method, count = parse_sample(given.sample) if given.sample else (FACTORIAL, 0)
     cases = tuple(absolute_case(case) for case in given.case)
-    design = Design(cases, tuple(variables), method, count, given.seed or 0)
+    ties = tuple(Expression.parse(text, "--tie") for text in given.tie)
+    correlations = tuple(map(parse_correlation, given.correlate))
+    design = Design(cases, tuple(variables), method, count, given.seed or 0, ties, correlations)
     return design, _options(given, given.block, [Expression.parse(text) for text in given.column])
 
 
@@ -113,7 +127,8 @@ def _constants(texts: Sequence[str]) -> list[Levels]:
 def _from_file(given: argparse.Namespace) -> tuple[Design, Options]:
     """Read the design from the table [sweep]; paths in it are relative to the file."""
     path = Path(given.case[0])
-    if given.vary or given.set or given.sample or given.column or any(getattr(given, kind) for kind in _DISTRIBUTIONS):
+    options = ("vary", "set", "sample", "column", "tie", "correlate", *_DISTRIBUTIONS)
+    if any(getattr(given, option) for option in options):
         raise ReportError(f"{path}: specifies the design. Remove --vary, --sample and the other design options.")
     table = _toml(path)["sweep"]
     for key in table:
@@ -124,8 +139,12 @@ def _from_file(given: argparse.Namespace) -> tuple[Design, Options]:
         raise ReportError(f"{path}: sweep.cases: missing or not a list of texts. Specify at least one case.")
     variables: list[Variable] = []
     for key, values in _of_type(path, table, "vary", dict, {}).items():
-        variables.append(parse_levels(f"{key}={values}") if isinstance(values, str) else levels(key, list(values)))
-    variables += [Levels(key, (value,)) for key, value in _of_type(path, table, "set", dict, {}).items()]
+        if not isinstance(values, str | list):
+            raise ReportError(
+                f"{path}: sweep.vary.{quoted(key)}: not a list (found {quoted(str(values))}). Correct it."
+            )
+        variables.append(parse_levels(f"{key}={values}") if isinstance(values, str) else levels(key, values))
+    variables += [levels(key, [value]) for key, value in _of_type(path, table, "set", dict, {}).items()]
     for kind in _DISTRIBUTIONS:
         for key, pair in _of_type(path, table, kind, dict, {}).items():
             if not isinstance(pair, list) or len(pair) != 2 or not all(map(is_number, pair)):
@@ -137,7 +156,11 @@ def _from_file(given: argparse.Namespace) -> tuple[Design, Options]:
     files = tuple(absolute_case(path.parent / case) for case in cases)
     expressions = [Expression(name, str(text)) for name, text in _of_type(path, table, "column", dict, {}).items()]
     is_block = given.block or _of_type(path, table, "block", bool, False)
-    return Design(files, tuple(variables), method, count, seed), _options(given, is_block, expressions)
+    ties = tuple(Expression(key, str(text), "--tie") for key, text in _of_type(path, table, "tie", dict, {}).items())
+    pairs = _of_type(path, table, "correlate", dict, {})
+    correlations = tuple(parse_correlation(f"{keys}={number}") for keys, number in pairs.items())
+    design = Design(files, tuple(variables), method, count, seed, ties, correlations)
+    return design, _options(given, is_block, expressions)
 
 
 def _of_type(path: Path, table: dict[str, Any], key: str, kind: type, default: Any) -> Any:
@@ -171,6 +194,11 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "--lognormal", metavar="KEY=MEDIAN:SIGMA", action="append", default=[],
         help="lognormal: SIGMA is the standard deviation of the natural logarithm, truncated at 3 SIGMA",
+    )  # fmt: skip
+    add("--tie", metavar="KEY=EXPRESSION", action="append", default=[], help="key computed from varied and set keys")
+    add(
+        "--correlate", metavar="KEY,KEY=NUMBER", action="append", default=[],
+        help="rank correlation of two varied keys, between -1 and 1, of a sample lhs or sobol",
     )  # fmt: skip
     forms = ", ".join(f"{method}:N" for method in METHODS)
     add("--sample", metavar="METHOD:N", help=f"sample instead of all combinations: {forms}")

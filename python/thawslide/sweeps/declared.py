@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import subprocess
 from functools import cache
+from typing import Any
 
+from thawslide import _core
 from thawslide.program import find_program
 
 _HISTORY, _BLOCK = "history.csv", "Table of the rigid block"  # sections of the output
 _ROW = re.compile(r"^\| (`[^|]*`) \|")
 _NAME = re.compile(r"`(\w+)`")
-_ANY = "NAME"  # in the name of a table
+_UNIT = re.compile(r"\[([^]]*)\]$")
 _TIMEOUT = 60.0  # seconds
 
 
@@ -23,37 +26,38 @@ def declared_columns(is_block: bool) -> list[str]:
 
 
 def unit_of_key(key: str) -> str:
-    """Return the unit of a key such as body.slide.temperature; "" without unit or program."""
-    path = find_program()
-    parts = key.split(".")
-    for (table, name), unit in (_units(path) if path else {}).items():
-        declared = [*table.split("."), name]
-        if len(declared) == len(parts) and all(
-            there in (part, _ANY) for part, there in zip(parts, declared, strict=True)
-        ):
-            return unit
-    return ""
+    """Return the unit of a key such as body.slide.temperature; "" without unit."""
+    unit = _UNIT.search(_schema_of(key).get("description", ""))
+    return "" if unit is None else "°C" if unit[1] == "C" else unit[1]
+
+
+def limits_of_key(key: str) -> tuple[float, float]:
+    """Return the lowest and the highest number that a key allows; infinite without a limit."""
+    schema = _schema_of(key)
+    schema = schema.get("anyOf", [schema])[0]
+    low, high = schema.get("minimum", -math.inf), schema.get("maximum", math.inf)
+    if "exclusiveMinimum" in schema:
+        low = math.nextafter(schema["exclusiveMinimum"], math.inf)
+    if "exclusiveMaximum" in schema:
+        high = math.nextafter(schema["exclusiveMaximum"], -math.inf)
+    return low, high
 
 
 @cache
-def _units(path: str) -> dict[tuple[str, str], str]:
-    """Return the units by table and key."""
-    try:
-        tables = json.loads(_printed(path, "--json"))
-        return {
-            (table["table"].strip("[]"), key["key"]): "°C" if key["unit"] == "C" else str(key["unit"])
-            for table in tables
-            for key in table["keys"]
-        }
-    except (ValueError, KeyError, TypeError):
-        return {}
+def _schema_of(key: str) -> dict[str, Any]:
+    """Return the JSON schema of a key; empty for an unknown one."""
+    found: Any = json.loads(_core.schema_json())
+    for part in key.split("."):
+        inner = found.get("properties", {}).get(part, found.get("additionalProperties"))
+        found = inner if isinstance(inner, dict) else {}
+    return dict(found)
 
 
 @cache
 def _columns(path: str, section: str) -> list[str]:
     found: list[str] = []
     is_inside = False
-    for line in _printed(path, "--outputs").splitlines():
+    for line in _printed(path).splitlines():
         if line.startswith("## "):
             is_inside = line == f"## {section}"
         elif is_inside and (row := _ROW.match(line)):
@@ -61,10 +65,11 @@ def _columns(path: str, section: str) -> list[str]:
     return found
 
 
-def _printed(path: str, form: str) -> str:
-    """Return the output of `thawslide describe`; "" if it fails."""
+def _printed(path: str) -> str:
+    """Return the output of `thawslide describe --outputs`; "" if it fails."""
+    command = [path, "describe", "--outputs"]
     try:
-        done = subprocess.run([path, "describe", form], capture_output=True, text=True, timeout=_TIMEOUT, check=False)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=False)
     except (OSError, subprocess.TimeoutExpired, ValueError):
         return ""
     return done.stdout

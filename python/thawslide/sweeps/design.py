@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from thawslide.arrays import Numbers
-from thawslide.errors import ReportError, quoted
+from thawslide.errors import ReportError, nearest, quoted
+from thawslide.sweeps.expressions import Expression
 from thawslide.sweeps.variables import CASE, Levels, Variable
 
 FACTORIAL = "factorial"
@@ -19,6 +20,9 @@ METHODS = ("lhs", "sobol", "saltelli", "morris")
 MORRIS_LEVELS = 4
 _MOST_MEMBERS = 1_000_000
 _POWERS_OF_TWO = ("sobol", "saltelli")
+_CORRELATED = ("lhs", "sobol")
+_LEAST_EIGENVALUE = 1e-9
+_EDGE = 1e-12  # probability at which normal scores are limited
 
 
 @dataclass(frozen=True)
@@ -39,9 +43,11 @@ class Design:
     method: str = FACTORIAL
     count: int = 0  # of the sample: members, base points (saltelli) or trajectories (morris)
     seed: int = 0
+    ties: tuple[Expression, ...] = ()  # keys computed from the others, in this order
+    correlations: tuple[tuple[str, str, float], ...] = ()  # pairs of keys and their rank correlations
 
     def __post_init__(self) -> None:
-        keys = [variable.key for variable in self.variables]
+        keys = [variable.key for variable in self.variables] + [tie.name for tie in self.ties]
         for index, key in enumerate(keys):
             if key in keys[:index]:
                 raise ReportError(f"{key}: varied twice. Remove one of the options.")
@@ -51,6 +57,10 @@ class Design:
                     raise ReportError(f"{variable.key}: a distribution needs a sample. Add --sample, e.g. lhs:200.")
         elif not self.dimensions:
             raise ReportError("--sample: no key varies. Add --range KEY=LOW:HIGH.")
+        if self.seed < 0:
+            raise ReportError(f"--seed: negative (found {self.seed}). Use 0 or more.")
+        if self.correlations:
+            self._require_correlations()
         if self.size > _MOST_MEMBERS:
             raise ReportError(f"too many members (found {self.size:,}; allowed {_MOST_MEMBERS:,}). Vary fewer values.")
 
@@ -75,9 +85,49 @@ class Design:
             return math.prod(len(each.values) for each in self.dimensions if isinstance(each, Levels))
         return self.count * {"saltelli": varied + 2, "morris": varied + 1}.get(self.method, 1)
 
+    def _require_correlations(self) -> None:
+        varied = [each.key for each in self.dimensions]
+        for one, other, value in self.correlations:
+            for key in (one, other):
+                if key not in varied:
+                    raise ReportError(f"--correlate: {key} does not vary{nearest(key, varied)}")
+            if one == other or not -1.0 < value < 1.0:
+                raise ReportError(
+                    f"--correlate {one},{other}: invalid (found {value:g}; allowed two keys and a number between -1 "
+                    f"and 1, ends excluded). Correct it."
+                )
+        if self.method not in _CORRELATED or self.count <= len(varied):
+            raise ReportError(
+                f"--correlate: needs a sample of more than {len(varied)} members (found {self.method}, {self.count}; "
+                f"allowed {', '.join(_CORRELATED)}). Add --sample, e.g. lhs:200."
+            )
+        if np.linalg.eigvalsh(self._normal_correlations()).min() < _LEAST_EIGENVALUE:
+            raise ReportError("--correlate: the correlations contradict each other. Use smaller ones.")
+
+    def _normal_correlations(self) -> Numbers:
+        """Return the correlations of normal variables that have the rank correlations (Pearson, 1907)."""
+        keys = [each.key for each in self.dimensions]
+        matrix = np.eye(len(keys))
+        for one, other, value in self.correlations:
+            pair = keys.index(one), keys.index(other)
+            matrix[pair] = matrix[pair[::-1]] = 2.0 * np.sin(np.pi / 6.0 * value)
+        return matrix
+
     def probabilities(self) -> Numbers:
-        """Return the sample in the unit cube, shape (members, dimensions): cumulative probabilities."""
-        return _SAMPLES[self.method](len(self.dimensions), self.count, self.seed)
+        """Return the sample in the unit cube, shape (members, dimensions): cumulative probabilities.
+
+        Correlations rearrange the values of each key (Iman and Conover, 1982), whose distributions do not change.
+        """
+        sample = _SAMPLES[self.method](len(self.dimensions), self.count, self.seed)
+        if not self.correlations:
+            return sample
+        from scipy.special import ndtri
+
+        scores = ndtri(np.clip(sample, _EDGE, 1.0 - _EDGE))
+        independent = np.linalg.solve(np.linalg.cholesky(np.cov(scores.T)), (scores - scores.mean(axis=0)).T)
+        correlated = (np.linalg.cholesky(self._normal_correlations()) @ independent).T
+        ranks = correlated.argsort(axis=0, kind="stable").argsort(axis=0)
+        return np.asarray(np.take_along_axis(np.sort(sample, axis=0), ranks, axis=0))
 
     def members(self) -> list[Member]:
         """Return all members in order."""
@@ -92,7 +142,12 @@ class Design:
 
     def _member(self, number: int, values: Sequence[Any]) -> Member:
         changes = {each.key: value for each, value in zip(self.dimensions, values, strict=True)}
-        return Member(number, changes.pop(CASE, self.cases[0]), self.constants | changes)
+        case_file = changes.pop(CASE, self.cases[0])
+        changes = self.constants | changes
+        for tie in self.ties:
+            value = tie.value({key: each for key, each in changes.items() if type(each) in (int, float)})
+            changes[tie.name] = int(value) if value.is_integer() else value
+        return Member(number, case_file, changes)
 
     def as_table(self) -> dict[str, Any]:
         """Return the design as values of a JSON file."""
@@ -102,7 +157,19 @@ class Design:
             "count": self.count,
             "seed": self.seed,
             "variables": [variable.as_table() for variable in self.variables],
+            **({"ties": {tie.name: tie.text for tie in self.ties}} if self.ties else {}),
+            **({"correlations": list(map(list, self.correlations))} if self.correlations else {}),
         }
+
+
+def parse_correlation(text: str) -> tuple[str, str, float]:
+    """Read KEY,KEY=NUMBER of --correlate."""
+    keys, _, number = text.rpartition("=")
+    one, _, other = (part.strip() for part in keys.partition(","))
+    try:
+        return one, other, float(number)
+    except ValueError:
+        raise ReportError(f"--correlate: invalid (found {quoted(text)}). Specify KEY,KEY=NUMBER.") from None
 
 
 def parse_sample(text: str) -> tuple[str, int]:

@@ -23,6 +23,7 @@ _TOPIC = "thawslide-member"  # of events that report progress
 _WINDOW = 2000  # members submitted at once: the scheduler keeps them until a worker is free
 MOST_DEATHS = 5  # of workers during one member, which then counts as failed
 _CLOSE_TIMEOUT = 10.0  # seconds
+_CONNECT_TIMEOUT = 20.0  # seconds, to a given scheduler
 _REPORT_INTERVAL = 1.0  # seconds between two reports of a member
 
 _SETTINGS = {
@@ -59,7 +60,14 @@ def connected(scheduler: str | None, workers: int) -> Iterator[Client]:
     """Connect to a scheduler, or start a local cluster of single-threaded processes."""
     with dask.config.set(_SETTINGS):
         if scheduler is not None:
-            with Client(scheduler) as client:
+            try:
+                client = Client(scheduler, timeout=_CONNECT_TIMEOUT)
+            except Exception as error:  # of any kind: the address, the network, the versions of packages
+                raise ReportError(
+                    f"--scheduler {scheduler}: no connection ({type(error).__name__}: {error}). Start it (dask "
+                    f"scheduler), and correct the address, e.g. tcp://node1:8786."
+                ) from error
+            with client:
                 yield client
             return
         cluster = LocalCluster(

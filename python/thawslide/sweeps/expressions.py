@@ -51,8 +51,8 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sqrt": np.sqrt,
     "log": np.log,
     "exp": np.exp,
-    "min": np.nanmin,
-    "max": np.nanmax,
+    "min": lambda *values: np.nanmin(values),
+    "max": lambda *values: np.nanmax(values),
     "mean": np.nanmean,
     "first": lambda values: values[0],
     "last": lambda values: values[-1],
@@ -61,41 +61,45 @@ _TIMED: dict[str, Callable[..., Any]] = {"at": _at, "first_time": _first_time, "
 FUNCTIONS = (*_FUNCTIONS, *_TIMED)
 
 
-def _no_column(found: str, known: Collection[str]) -> str:
-    near = difflib.get_close_matches(found[:_LONGEST_NAME], known, _MOST_NEAR, _LEAST_LIKENESS)
-    allowed = f"allowed, for example: {', '.join(near or sorted(known)[:_MOST_NEAR])}"
-    return f"no column {quoted(found)} in the history ({allowed}). Correct the name."
+class _KeysAsNames(ast.NodeTransformer):
+    """Replace attributes such as `basal.cohesion` by names."""
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
+        """Return the name of a key."""
+        return ast.Name(ast.unparse(node))
 
 
 class Expression:
-    """An expression such as `max(mean_velocity_m_s)` or `at(10, runout_m) / 1000`."""
+    """An expression such as `max(mean_velocity_m_s)`, or, of keys, `0.5 * basal.cohesion`."""
 
-    def __init__(self, name: str, text: str) -> None:
-        """Parse an expression; ReportError if it is invalid."""
-        self.name, self.text = name, text
-        if not name.isidentifier():
+    def __init__(self, name: str, text: str, option: str = "--column") -> None:
+        """Parse an expression; ReportError if it is invalid. `option`: that of the command line, --column or --tie."""
+        self.name, self.text, self._option = name, text, option
+        self._names = "column" if option == "--column" else "varied or set key"
+        if option == "--column" and not name.isidentifier():
             raise ReportError(f"--column: invalid name (found {quoted(name)}). Use letters, digits and underscores.")
         try:
             if len(text) > _LONGEST:
                 raise SyntaxError("too long")
-            self._tree = ast.parse(text, mode="eval").body
+            tree = ast.parse(text, mode="eval").body
+            self._tree = tree if option == "--column" else _KeysAsNames().visit(tree)
         except (SyntaxError, ValueError, RecursionError) as error:
-            raise ReportError(f"--column {name}: not an expression (found {quoted(text)}). Correct it.") from error
+            raise ReportError(f"{option} {name}: not an expression (found {quoted(text)}). Correct it.") from error
         self._check(self._tree)
 
     @classmethod
-    def parse(cls, text: str) -> Expression:
+    def parse(cls, text: str, option: str = "--column") -> Expression:
         """Read NAME=EXPRESSION."""
         name, equals, expression = text.partition("=")
-        if not equals:
-            raise ReportError(f"--column: invalid (found {quoted(text)}). Specify NAME=EXPRESSION.")
-        return cls(name.strip(), expression.strip())
+        if not equals or not name.strip():
+            raise ReportError(f"{option}: invalid (found {quoted(text)}). Specify NAME=EXPRESSION.")
+        return cls(name.strip(), expression.strip(), option)
 
     def require_columns(self, known: Collection[str]) -> None:
         """Raise ReportError for a column that no history has."""
         for node in ast.walk(self._tree):
             if isinstance(node, ast.Name) and node.id not in (*known, *FUNCTIONS):
-                raise ReportError(f"--column {self.name}: {_no_column(node.id, known)}")
+                raise ReportError(f"{self._option} {self.name}: {self._no_name(node.id, known)}")
 
     def value(self, columns: Mapping[str, Numbers]) -> float:
         """Return the value for the columns of a history; ReportError for an unknown column or no single real value."""
@@ -103,22 +107,28 @@ class Expression:
             with np.errstate(all="ignore"):
                 value = np.asarray(self._value(self._tree, columns))
         except ArithmeticError as error:
-            raise ReportError(f"--column {self.name}: cannot be computed ({error}). Correct it.") from error
+            raise ReportError(f"{self._option} {self.name}: cannot be computed ({error}). Correct it.") from error
         if value.ndim:
             raise ReportError(
-                f"--column {self.name}: not a single value, but one per row (found {quoted(self.text)}). Use max, "
-                f"last or another function."
+                f"{self._option} {self.name}: not a single value, but one per row (found {quoted(self.text)}). Use "
+                f"max, last or another function."
             )
         if np.iscomplexobj(value):
-            raise ReportError(f"--column {self.name}: not a real number (found {value}). Correct it.")
+            raise ReportError(f"{self._option} {self.name}: not a real number (found {value}). Correct it.")
         return float(value)
+
+    def _no_name(self, found: str, known: Collection[str]) -> str:
+        near = difflib.get_close_matches(found[:_LONGEST_NAME], known, _MOST_NEAR, _LEAST_LIKENESS)
+        allowed = f"allowed, for example: {', '.join(near or sorted(known)[:_MOST_NEAR])}"
+        place = " in the history" if self._option == "--column" else ""
+        return f"no {self._names} {quoted(found)}{place} ({allowed}). Correct the name."
 
     def _check(self, node: ast.AST) -> None:
         """Raise ReportError for anything but numbers, names, arithmetic, comparisons and known functions."""
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
             if node.func.id not in FUNCTIONS:
                 raise ReportError(
-                    f"--column {self.name}: no function {quoted(node.func.id)}{nearest(node.func.id, FUNCTIONS)} "
+                    f"{self._option} {self.name}: no function {quoted(node.func.id)}{nearest(node.func.id, FUNCTIONS)} "
                     f"Allowed: {', '.join(FUNCTIONS)}."
                 )
             parts: list[ast.AST] = list(node.args)
@@ -132,8 +142,8 @@ class Expression:
             parts = []
         else:
             raise ReportError(
-                f"--column {self.name}: not allowed (found {quoted(ast.unparse(node))}). Use columns, numbers, "
-                f"arithmetic and functions."
+                f"{self._option} {self.name}: not allowed (found {quoted(ast.unparse(node))}). Use {self._names}s, "
+                f"numbers, arithmetic and functions."
             )
         for part in parts:
             self._check(part)
@@ -143,7 +153,7 @@ class Expression:
             return np.float64(node.value)  # type: ignore[arg-type]  # a number, after _check
         if isinstance(node, ast.Name):
             if node.id not in columns:
-                raise ReportError(f"--column {self.name}: {_no_column(node.id, columns)}")
+                raise ReportError(f"{self._option} {self.name}: {self._no_name(node.id, columns)}")
             return columns[node.id]
         if isinstance(node, ast.BinOp):
             return _OPERATORS[type(node.op)](self._value(node.left, columns), self._value(node.right, columns))
@@ -161,5 +171,5 @@ class Expression:
             return _FUNCTIONS[node.func.id](*values)
         except (TypeError, ValueError, IndexError) as error:
             raise ReportError(
-                f"--column {self.name}: {node.func.id} cannot be applied ({error}). Correct its arguments."
+                f"{self._option} {self.name}: {node.func.id} cannot be applied ({error}). Correct its arguments."
             ) from error

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from thawslide.errors import ReportError
 from thawslide.text_files import MEGABYTE, is_file, read_json
 
 PLAN = "sweep.json"
+INPUTS = "inputs"  # in the plan: digests of the inputs of each member
 DONE, FAILED, RUNNING, PENDING = "done", "failed", "running", "pending"
 FINISHED = (DONE, FAILED)
 
@@ -57,19 +59,30 @@ class SweepFolder:
             raise ReportError(f"{self.plan_file}: members: not a whole number (found {count}). Repeat the sweep.")
         return range(count)
 
-    def start(self, plan: dict[str, Any]) -> None:
-        """Write the plan, or compare it with the plan of an interrupted sweep; ReportError if they differ."""
+    def start(self, plan: dict[str, Any]) -> list[int]:
+        """Write the plan, or compare it with the plan of an interrupted sweep; ReportError if they differ.
+
+        Removes the members whose inputs alone have changed, and returns their numbers.
+        """
         plan = json.loads(json.dumps(plan))
+        changed: list[int] = []
         if is_file(self.plan_file):
             found = read_json(self.plan_file, 64 * MEGABYTE)
-            different = sorted(name for name in plan.keys() | found.keys() if plan.get(name) != found.get(name))
+            names = plan.keys() | found.keys()
+            if isinstance(before := found.get(INPUTS), list) and len(before) == len(plan[INPUTS]):
+                names -= {INPUTS}
+                changed = [number for number, inputs in enumerate(plan[INPUTS]) if inputs != before[number]]
+            different = sorted(name for name in names if plan.get(name) != found.get(name))
             if different:
                 raise ReportError(
                     f"{self.path}: contains another sweep (different: {', '.join(different)}). Repeat its command, or "
                     f"specify another --output."
                 )
-            return
-        if self.path.is_dir() and any(self.path.iterdir()):
+            if not changed:
+                return []
+            for number in changed:
+                self.forget(number)
+        elif self.path.is_dir() and any(self.path.iterdir()):
             raise ReportError(f"{self.path}: not empty, and not a sweep. Specify another --output.")
         try:
             (self.path / "members").mkdir(parents=True, exist_ok=True)
@@ -80,6 +93,12 @@ class SweepFolder:
                 f"{error.filename or self.path}: cannot be written ({error.strerror or error}). Select another "
                 f"--output."
             ) from error
+        return changed
+
+    def forget(self, number: int) -> None:
+        """Remove the run and the record of a member, which then runs again."""
+        shutil.rmtree(self.run_folder(number), ignore_errors=True)
+        self.record_file(number).unlink(missing_ok=True)
 
     def record(self, number: int) -> dict[str, Any]:
         """Return the record of a member; if it has never started, a record with 0 starts."""

@@ -41,8 +41,7 @@ class Task:
 
     number: int
     folder: Path
-    case_file: str
-    changes: dict[str, Any]
+    case: Case
     is_block: bool = False
     expressions: dict[str, str] = field(default_factory=dict)
     keep: str = "maps"
@@ -122,7 +121,7 @@ def _await(lock: Path) -> None:
 
 def _evaluated(task: Task, folder: SweepFolder, run_folder: Path, report: Callable[[float], None]) -> dict[str, Any]:
     """Run a member to its end, write its series, and return seed and numbers."""
-    case = Case(task.case_file, task.changes)
+    case = task.case
     expressions = [Expression(name, text) for name, text in task.expressions.items()]
     if task.is_block:
         columns = {

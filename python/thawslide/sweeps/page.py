@@ -40,7 +40,8 @@ def write_page(
     """Write the page and return its path; `results` are the columns whose sensitivity it shows."""
     done = members[members["status"] == DONE]
     keys = [variable.key for variable in design.dimensions]
-    shown = _results(members, [*keys, *design.constants], results)
+    others = [*design.constants, *(tie.name for tie in design.ties)]
+    shown = _results(members, [*keys, *others], results)
     count = {status: int((members["status"] == status).sum()) for status in (DONE, FAILED)}
     title = f"Sweep of {design.size} members"
     parts = [f"<h1>{title}</h1>", f'<p class="where">Folder: {html.escape(folder.path.name)}</p>']
@@ -49,7 +50,7 @@ def write_page(
     if (unfinished := design.size - count[DONE] - count[FAILED]) > 0:
         parts.append(f'<p class="note">{unfinished} members have not finished. Results do not include them.</p>')
     parts += ["<h2>Design</h2>", table(_design_rows(design), "facts")]
-    numbers = [name for name in members if name not in (*NOT_RESULTS, *keys, *design.constants)]
+    numbers = [name for name in members if name not in (*NOT_RESULTS, *keys, *others)]
     parts += ["<h2>Results</h2>", table(_number_rows(done, numbers), "runs", _HEAD)]
     parts += _figure("Spread through time", _SPREAD, lambda: spread(_series(folder, done)))
     for result in shown if keys else ():
@@ -142,6 +143,8 @@ def _design_rows(design: Design) -> list[tuple[str, str]]:
         [("members", exact_text(design.size)), ("method", sample)]
         + [(label_of_key(variable.key), _distribution_words(variable)) for variable in design.dimensions]
         + [(label_of_key(key), f"{value} (constant)") for key, value in design.constants.items()]
+        + [(label_of_key(tie.name), tie.text) for tie in design.ties]
+        + [(f"rank correlation of {one} and {other}", f"{value:g}") for one, other, value in design.correlations]
     )
 
 
@@ -153,9 +156,10 @@ def _distribution_words(variable: Variable) -> str:
     if isinstance(variable, Uniform):
         return f"uniform from {exact_text(variable.low)} to {exact_text(variable.high)}"
     assert isinstance(variable, Normal)
+    more = "" if variable.limits is None else f", from {variable.limits[0]:.4g} to {variable.limits[1]:.4g}"
     if variable.is_logarithmic:
-        return f"lognormal, median {exact_text(variable.centre)}, sigma {exact_text(variable.deviation)}"
-    return f"normal, mean {exact_text(variable.centre)}, standard deviation {exact_text(variable.deviation)}"
+        return f"lognormal, median {exact_text(variable.centre)}, sigma {exact_text(variable.deviation)}{more}"
+    return f"normal, mean {exact_text(variable.centre)}, standard deviation {exact_text(variable.deviation)}{more}"
 
 
 def _number_rows(done: pd.DataFrame, names: Sequence[str]) -> list[tuple[Any, ...]]:

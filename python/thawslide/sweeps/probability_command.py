@@ -7,7 +7,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from thawslide.errors import ReportError, printable
+from thawslide.commands import print_line
+from thawslide.errors import ReportError
 from thawslide.sweeps.folder import PLAN, SweepFolder
 from thawslide.sweeps.outcome import MAPS
 from thawslide.sweeps.probability import QUANTILES, QUANTITIES, rasters_in, write_probability_maps
@@ -22,10 +23,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         chosen = {name: getattr(given, name) for name in ("thickness", "speed") if getattr(given, name)}
         count = max(map(len, rasters.values()))
         for path in write_probability_maps(rasters, output, chosen or None, given.quantiles or QUANTILES):
-            print(f"{path}")
-        print(f"maps of {count} members{_unfinished(given.folder)}", file=sys.stderr)
+            print_line(f"{path}")
+        print_line(f"maps of {count} members{_unfinished(given.folder)}", sys.stderr)
     except ReportError as error:
-        print(printable(f"thawslide probability: error: {error}"), file=sys.stderr)
+        print_line(f"thawslide probability: error: {error}", sys.stderr)
         return 2
     return 0
 

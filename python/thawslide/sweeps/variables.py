@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import date, time
 from statistics import NormalDist
 from typing import Any
 
+from thawslide.case import toml_text
 from thawslide.errors import ReportError, quoted
 
 TRUNCATION = 3.0  # standard deviations, on both sides of normal distributions
-_TAIL = NormalDist().cdf(-TRUNCATION)
+_MARGIN = 1e-6  # of the span of a distribution, between a limit and the truncated end
 _MOST_LEVELS = 100_000
 CASE = "case"  # the name of the variable that selects one of several cases
 
@@ -58,16 +60,25 @@ class Normal:
     centre: float  # mean; of a lognormal distribution the median
     deviation: float
     is_logarithmic: bool = False
+    limits: tuple[float, float] | None = None  # further truncation
 
     def at(self, probability: float) -> float:
         """Return the quantile of a probability."""
-        truncated = _TAIL + (1.0 - 2.0 * _TAIL) * probability
-        scaled = NormalDist().inv_cdf(min(max(truncated, _TAIL), 1.0 - _TAIL)) * self.deviation
+        low, high = (-TRUNCATION, TRUNCATION) if self.limits is None else map(self._score, self.limits)
+        first, last = NormalDist().cdf(low), 1.0 - NormalDist().cdf(-high)
+        truncated = first + (last - first) * probability
+        scaled = NormalDist().inv_cdf(min(max(truncated, first), last)) * self.deviation
         return self.centre * math.exp(scaled) if self.is_logarithmic else self.centre + scaled
+
+    def _score(self, value: float) -> float:
+        """Return the distance of a value from the centre in standard deviations."""
+        distance = math.log(value / self.centre) if self.is_logarithmic else value - self.centre
+        return min(max(distance / self.deviation, -TRUNCATION), TRUNCATION)
 
     def as_table(self) -> dict[str, Any]:
         """Return the variable as values of a JSON file."""
-        return {"key": self.key, "lognormal" if self.is_logarithmic else "normal": [self.centre, self.deviation]}
+        numbers = {"lognormal" if self.is_logarithmic else "normal": [self.centre, self.deviation]}
+        return {"key": self.key, **numbers, **({"limits": list(self.limits)} if self.limits else {})}
 
 
 Variable = Levels | Uniform | Normal
@@ -86,6 +97,10 @@ def levels(key: str, values: Sequence[Any]) -> Levels:
     """Return the levels of a key; ReportError if there are none, or two of them are equal."""
     if not values:
         raise ReportError(f"--vary {key}: no values. Specify at least one.")
+    try:  # numbers of NumPy, paths and others as values of TOML
+        values = [tomllib.loads(f"value = {toml_text(value)}")["value"] for value in values]
+    except TypeError as error:
+        raise ReportError(f"{key}: {error}") from error
     for index, value in enumerate(values):
         if value in values[:index]:
             raise ReportError(f"--vary {key}: the same value twice (found {value}). Remove one.")
@@ -117,12 +132,30 @@ def distribution(kind: str, key: str, first: float, second: float) -> Variable:
     return Normal(key, first, second, kind == "lognormal")
 
 
+def truncated(variable: Variable, low: float, high: float) -> Variable:
+    """Return a distribution without the values below and above two limits; ReportError if none is left."""
+    if isinstance(variable, Levels):
+        return variable
+    first, last = variable.at(0.0), variable.at(1.0)
+    if low <= first and last <= high:
+        return variable
+    margin = _MARGIN * (last - first)
+    left = (low + margin if first < low else first, high - margin if last > high else last)
+    if not left[0] < left[1]:
+        raise ReportError(
+            f"{variable.key}: no value of the distribution is allowed (found {first:g} to {last:g}; allowed {low:g} to "
+            f"{high:g}). Correct the distribution."
+        )
+    return Uniform(variable.key, *left) if isinstance(variable, Uniform) else replace(variable, limits=left)
+
+
 def toml_value(text: str) -> Any:
     """Return a value of a command line: TOML, or text without quotation marks."""
     try:
-        return tomllib.loads(f"value = {text}")["value"]
+        value = tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
         return text
+    return text if isinstance(value, date | time) else value  # no key has a date or time as its value
 
 
 def _split(text: str, option: str, form: str) -> tuple[str, str]:
