@@ -121,6 +121,11 @@ class Case:
         """The key time.end [s]."""
         return self._core.end
 
+    @property
+    def input_files(self) -> list[Path]:
+        """Absolute paths of the files that the case names; a raster or vector file with all files that belong to it."""
+        return [Path(file) for file in _core.input_files(self._core) if file not in self._core.case_files]
+
     def to_toml(self) -> str:
         """Return the case file with all defaults."""
         return _core.resolved_toml(self._core)

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
-#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -21,6 +20,7 @@
 #include "base/parallel.hpp"
 #include "config/describe.hpp"
 #include "config/read_case.hpp"
+#include "python/bindings.hpp"
 #include "run/block_model.hpp"
 #include "run/live_run.hpp"
 #include "run/run_loop.hpp"
@@ -136,14 +136,6 @@ class PythonObserver : public run::Observer {
   std::string interruption_;
   std::exception_ptr exception_;
 };
-
-template <class T>
-nb::object copied(const std::vector<T>& values, std::initializer_list<std::size_t> shape) {
-  auto* copy = new T[values.size()];
-  const nb::capsule owner(copy, [](void* memory) noexcept { delete[] static_cast<T*>(memory); });
-  std::copy(values.begin(), values.end(), copy);
-  return nb::cast(nb::ndarray<nb::numpy, T>(copy, shape, owner));
-}
 
 // Calls a law with copies of the arrays of the nodes, and replaces their strengths by the array that it returns. The
 // caller does not hold the GIL. Exceptions of the law pass through the step.
@@ -266,13 +258,11 @@ nb::object field_view(Live& self, const std::string& name) {
 nb::dict columns_of(const std::vector<sim::HistoryRow>& rows) {
   nb::dict columns;
   for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
-    auto* values = new double[rows.size()];
-    const nb::capsule owner(values, [](void* memory) noexcept { delete[] static_cast<double*>(memory); });
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      values[k] = rows[k][c].second;
+    std::vector<double> values;
+    for (const sim::HistoryRow& row : rows) {
+      values.push_back(row[c].second);
     }
-    const std::size_t shape[] = {rows.size()};
-    columns[rows.front()[c].first.c_str()] = nb::ndarray<nb::numpy, double>(values, 1, shape, owner);
+    columns[rows.front()[c].first.c_str()] = copied(values, {values.size()});
   }
   return columns;
 }
@@ -291,10 +281,12 @@ NB_MODULE(_core, module) {
   nb::exception<WriteError>(module, "WriteError", user_error.ptr());
   nb::exception<RunError>(module, "RunError", PyExc_RuntimeError);
   nb::exception<DeviceError>(module, "DeviceError", PyExc_RuntimeError);
+  bind_files(module);
 
   nb::class_<config::Case>(module, "Case")
       .def_ro("name", &config::Case::name)
       .def_ro("file", &config::Case::file)
+      .def_ro("case_files", &config::Case::case_files)
       .def_prop_ro("title", [](const config::Case& self) { return self.general.title; })
       .def_prop_ro("dimension", [](const config::Case& self) { return self.general.dimension; })
       .def_prop_ro("end", [](const config::Case& self) { return self.time.end; });

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import os
 import shutil
-import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike, fspath
 from pathlib import Path
@@ -157,23 +155,12 @@ def plan_of(design: Design, members: Sequence[Member], options: Options) -> dict
 
 
 def _digest(member: Member) -> str:
-    """Return the SHA-256 of a resolved case and of the files that it names."""
-    text = Case(member.case_file, member.changes).to_toml()
-    digest = hashlib.sha256(text.encode())
-    for value in _texts(tomllib.loads(text)):
-        path = Path(member.case_file).parent / value
-        # Path.is_file raises OSError for a text that is too long for a name.
-        if os.path.isfile(path):  # noqa: PTH113
-            digest.update(path.read_bytes())
+    """Return the SHA-256 of a resolved case and of its input files."""
+    case = Case(member.case_file, member.changes)
+    digest = hashlib.sha256(case.to_toml().encode())
+    for path in case.input_files:
+        digest.update(path.name.encode() + path.read_bytes())
     return digest.hexdigest()
-
-
-def _texts(value: object) -> Iterator[str]:
-    if isinstance(value, str):
-        yield value
-    elif isinstance(value, dict | list):
-        for each in value.values() if isinstance(value, dict) else value:
-            yield from _texts(each)
 
 
 def _require_new_names(expressions: Sequence[Expression], changes: Mapping[str, Any]) -> None:

@@ -21,8 +21,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         output = given.output or _usual_output(given.folder)
         chosen = {name: getattr(given, name) for name in ("thickness", "speed") if getattr(given, name)}
         count = max(map(len, rasters.values()))
-        for path in write_probability_maps(rasters, output, chosen or None, given.quantiles or QUANTILES):
+        notes: list[str] = []
+        quantiles = given.quantiles or QUANTILES
+        for path in write_probability_maps(rasters, output, chosen or None, quantiles, report=notes.append):
             print(f"{path}")
+        for note in notes:
+            print(printable(f"thawslide probability: {note}"), file=sys.stderr)
         print(f"maps of {count} members{_unfinished(given.folder)}", file=sys.stderr)
     except ReportError as error:
         print(printable(f"thawslide probability: error: {error}"), file=sys.stderr)

@@ -1,0 +1,17 @@
+// Encoding of the texts in vector files.
+#pragma once
+
+#include <string>
+
+class GDALDataset;
+
+namespace thawslide::gis {
+
+// True for a Shapefile that does not specify its encoding: without a .cpg file, and with the code page "ANSI" or none
+// in the .dbf file, which many programs write whatever the encoding is.
+[[nodiscard]] bool has_unknown_encoding(GDALDataset& dataset);
+
+// A text that is not UTF-8 is read as Windows-1252, which includes the letters of Latin-1.
+[[nodiscard]] std::string as_utf8(const std::string& text);
+
+}  // namespace thawslide::gis
