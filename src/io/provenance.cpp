@@ -172,7 +172,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
                       "the file another name.",
                       file.string()));
     }
-    THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
+    THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which run::input_files refuses", name);
     const std::string content = read_file(file);
     write_file_atomically(folder / "inputs" / name, content);
     inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});

@@ -6,14 +6,14 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "config/input_files.hpp"
+#include "run/input_files.hpp"
 
 namespace thawslide::run {
 
 namespace fs = std::filesystem;
 
 void require_readable_inputs(const config::Case& parameters) {
-  for (const fs::path& input : config::input_files(parameters)) {
+  for (const fs::path& input : input_files(parameters)) {
     if (access(input.c_str(), R_OK) != 0) {
       throw UserError(
           fmt::format("{} cannot be read: {}. A run keeps a copy of it.", input.string(), std::strerror(errno)));
@@ -23,7 +23,7 @@ void require_readable_inputs(const config::Case& parameters) {
 
 void require_no_input_in(const fs::path& folder, const config::Case& parameters) {
   const fs::path runs_folder = fs::weakly_canonical(folder);
-  for (const fs::path& input : config::input_files(parameters)) {
+  for (const fs::path& input : input_files(parameters)) {
     const fs::path relative = fs::weakly_canonical(input).lexically_relative(runs_folder);
     if (!relative.empty() && *relative.begin() != "..") {
       throw UserError(fmt::format("{} lies in the output folder {}. Give another --output{}.", input.string(),
@@ -34,7 +34,7 @@ void require_no_input_in(const fs::path& folder, const config::Case& parameters)
 }
 
 void require_no_input_at(const fs::path& file, const std::string& option, const config::Case& parameters) {
-  for (const fs::path& input : config::input_files(parameters)) {
+  for (const fs::path& input : input_files(parameters)) {
     std::error_code not_there;
     if (fs::equivalent(file, input, not_there)) {
       throw UserError(fmt::format("{} {} is an input of the case, which it would replace. Give another file.", option,
