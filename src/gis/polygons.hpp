@@ -31,9 +31,8 @@ using Polygons = std::vector<Polygon>;
 // Areas bounded by closed rings, in which a ring inside another one is a hole.
 [[nodiscard]] Polygons polygons_of_rings(const std::vector<Polyline2>& rings);
 
-// Makes a part within another one a hole of it, a part within a hole an area, and an outline within its hole the hole:
-// formats and programs disagree on how holes are stored. Parts that only overlap or touch remain. Returns whether
-// anything has changed.
+// Makes rings within others holes, and rings within holes areas, whatever the format and the direction of the rings.
+// Parts that only overlap or touch remain. Returns whether anything has changed.
 bool make_nested_rings_holes(Polygons& polygons);
 
 // Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap

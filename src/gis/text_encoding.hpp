@@ -7,8 +7,7 @@ class GDALDataset;
 
 namespace thawslide::gis {
 
-// True for a Shapefile that does not specify its encoding: without a .cpg file, and with the code page "ANSI" or none
-// in the .dbf file, which many programs write whatever the encoding is.
+// True for a Shapefile without a .cpg file whose .dbf file states the code page "ANSI", which means little, or none.
 [[nodiscard]] bool has_unknown_encoding(GDALDataset& dataset);
 
 // A text that is not UTF-8 is read as Windows-1252, which includes the letters of Latin-1.
