@@ -132,9 +132,9 @@ class Case:
         return [path for path, _ in self._files]
 
     @property
-    def input_files(self) -> list[str]:
-        """The paths of all input files, those of the case first."""
-        return _core.input_files(self._core)
+    def input_files(self) -> list[Path]:
+        """Absolute paths of the files that the case names; a raster or vector file with all files that belong to it."""
+        return [Path(file) for file in _core.input_files(self._core) if file not in self.case_files]
 
     def to_toml(self) -> str:
         """Return the case file with all defaults."""

@@ -10,14 +10,12 @@ from pathlib import Path
 from typing import cast
 
 import numpy as np
-import rasterio
 from contourpy import FillType, contour_generator
-from rasterio.errors import RasterioError
 from rasterio.warp import transform_geom
 
 from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError, nearest, quoted
-from thawslide.geopackage_writer import write_polygons
+from thawslide.map_files import write_polygons
 from thawslide.maps import Map, Maps, read_map
 from thawslide.number_text import exact_text
 from thawslide.run_folder import Numbers, Run
@@ -102,35 +100,26 @@ def write_contours(run: Run, name: str, thresholds: Sequence[float], below: bool
         }
         for area in areas
     ]
-    crs = _system_of(source)
     try:
+        polygons = [area.polygons for area in areas]
+        if path.suffix.lower() == ".gpkg":
+            write_polygons(path, f"{name}_contours", polygons, attributes, field.wkt)
+            return path
         with atomic_file(path) as temporary:
-            polygons = [area.polygons for area in areas]
-            if path.suffix.lower() == ".geojson":
-                temporary.write_text(_geojson(polygons, attributes, crs, source), encoding="utf-8")
-            else:
-                write_polygons(temporary, f"{name}_contours", polygons, attributes, crs)
+            temporary.write_text(_geojson(polygons, attributes, field.wkt, source), encoding="utf-8")
     except OSError as error:
         raise ReportError(f"{path}: cannot be written ({error.strerror or error}). Select another --output.") from error
     return path
 
 
-def _system_of(path: Path) -> rasterio.crs.CRS | None:
-    try:
-        with rasterio.open(path, driver="GTiff") as file:
-            return file.crs
-    except RasterioError as error:
-        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}). Repeat the run.") from error
-
-
 def _geojson(
     polygons: list[list[Polygon]],
     attributes: list[dict[str, str | float]],
-    crs: rasterio.crs.CRS | None,
+    crs: str,
     source: Path,
 ) -> str:
     """Return GeoJSON, whose coordinates are longitude and latitude (RFC 7946)."""
-    if crs is None:
+    if not crs:
         raise ReportError(
             f"{source}: no coordinate system, which GeoJSON requires. Use an --output that ends with .gpkg."
         )

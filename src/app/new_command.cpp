@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "run/input_files.hpp"
 #include "run/run_loop.hpp"
 #include "run/setup_warnings.hpp"
 
@@ -18,7 +19,6 @@
 
 #include "base/atomic_file.hpp"
 #include "config/case_proposal.hpp"
-#include "config/input_files.hpp"
 #include "config/read_case.hpp"
 #include "config/resolution.hpp"
 #include "gis/point_window.hpp"
@@ -36,13 +36,14 @@ namespace {
 constexpr double many_particles = 1e6;
 
 // Writes the original DEM, cropped to the domain with a margin of some cells.
-void write_cropped_dem(const fs::path& file, const Raster& ground, const config::Proposal& proposal) {
+void write_cropped_dem(const fs::path& file, const config::Site& site, const config::Proposal& proposal) {
+  const Raster& ground = *site.ground;
   const double margin = 3.0 * proposal.cell;
   const gis::Rectangle about =
       gis::Rectangle{proposal.min[0], proposal.min[1], proposal.max[0], proposal.max[1]}.widened(
           margin + 2.0 * ground.cell_x, margin + 2.0 * ground.cell_y);
   const Raster cropped = gis::part_of(ground, gis::points_in(ground, about));
-  gis::write_geotiff(file.string(), cropped, {"m", "elevation"});
+  gis::write_geotiff(file.string(), cropped, {"m", "elevation", site.heights});
 }
 
 // A release extends one cell of the DEM beyond its last points. If these are the DEM's last, there is no ground below
@@ -129,7 +130,7 @@ void require_affordable(const config::Proposal& proposal, const NewOptions& opti
 void copy_release(const fs::path& folder, const config::Case& trial) {
   config::Case release_alone;
   release_alone.bodies = trial.bodies;
-  for (const fs::path& file : config::input_files(release_alone)) {
+  for (const fs::path& file : run::input_files(release_alone)) {
     fs::copy_file(file, folder / file.filename());
   }
 }
@@ -258,7 +259,7 @@ int make_new_case(const NewOptions& options) {
 
   NewFolder new_folder(options.folder);
   const fs::path& folder = new_folder.path();
-  write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
+  write_cropped_dem(folder / input.dem_file, site, proposal);
   copy_release(folder, trial);
   write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
   const std::optional<RunCost> cost = cost_of_run(folder);

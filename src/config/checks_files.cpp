@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "config/checks.hpp"
 #include "config/force_record.hpp"
-#include "config/input_files.hpp"
+#include "config/named_files.hpp"
 #include "config/reported_values.hpp"
 
 namespace thawslide::config {
@@ -13,11 +13,11 @@ namespace {
 
 // Names must be unique, because a run keeps copies of all inputs in one folder.
 void check_file_names(const Case& checked, Reading& reading) {
-  const std::vector<InputFile> files = input_files_by_key(checked);
+  const std::vector<InputFile> files = named_files(checked);
   for (std::size_t later = 1; later < files.size(); ++later) {
     for (std::size_t earlier = 0; earlier < later; ++earlier) {
-      const auto& [key, file] = files[later];
-      const auto& [other_key, other] = files[earlier];
+      const auto& [key, file, is_map] = files[later];
+      const auto& [other_key, other, other_is_map] = files[earlier];
       if (file.filename() == other.filename() && reading.are_valid({key, other_key})) {
         reading.report_misfit(
             {key, other_key.empty() ? key : other_key},

@@ -73,6 +73,7 @@ struct Site {
   std::map<std::string, Polyline2> probes;  // by name: one point, or a line
   Raster bed_depth;                         // [m], at the points of the ground; empty if no raster is given
   std::string crs;                          // of all maps, as WKT
+  std::string heights;                      // vertical reference system of the ground; empty: not specified
   std::string crs_name;                     // "EPSG:31287", or its title; empty if none is known
 };
 

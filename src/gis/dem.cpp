@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/rounding.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 #include "gis/error_location.hpp"
 #include "gis/pits.hpp"
@@ -22,16 +23,13 @@ namespace thawslide::gis {
 
 namespace {
 
-std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& warnings) {
-  const std::string& given = parameters.terrain.crs;
+// `given`: as terrain.crs.
+std::string system_of(const RasterFile& file, const std::string& given, std::vector<std::string>& warnings) {
   const Raster& layout = file.layout();
-  const std::string system = with_error_location(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
-    return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
-  });
-  if (const std::string warning = location_warning({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
-      !warning.empty()) {
-    warnings.push_back(warning);
-  }
+  const Located located{file.file(), file.extent(), layout.cell_x, layout.cell_y};
+  const std::string system = metric_system(located, layout.crs, given);
+  add_warning(location_warning(located, system), warnings);
+  add_warning(distortion_note(located, system, !given.empty()), warnings);
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
     warnings.push_back(fmt::format("note: {} is read as {}, as set by terrain.crs; the file specifies {}",
                                    std::filesystem::path(file.file()).filename().string(), name_of(system),
@@ -41,18 +39,17 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
 }
 
 // Detects undeclared no-data values, which would act as pits.
-void check_elevations(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
+void check_elevations(const std::string& file, const Raster& raster) {
   constexpr double deepest = -11000.0, highest = 9000.0;  // m, on Earth
   for (int row = 0; row < raster.rows; ++row) {
     for (int column = 0; column < raster.columns; ++column) {
       const double z = raster.at(column, row);
       const bool is_elevation = z >= deepest && z <= highest && z != -9999.0;
       if (!std::isnan(z) && !is_elevation) {
-        fail_at(parameters, "terrain.file",
-                fmt::format("{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents "
-                            "missing data, declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
-                            file.file(), coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z,
-                            file.file()));
+        throw UserError(fmt::format(
+            "{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents "
+            "missing data, declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
+            file, coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z, shell_quote(file)));
       }
     }
   }
@@ -112,9 +109,11 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
                          const Rectangle& area, std::vector<std::string>& warnings) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
-  Raster raster =
-      with_error_location(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
-  check_elevations(parameters, file, raster);
+  Raster raster = with_error_location(parameters, "terrain.file", [&] {
+    Raster read = file.read(as_it_is ? area : needed_for(target));
+    check_elevations(file.file(), read);
+    return read;
+  });
   if (const std::string warning = pits_warning(file.file(), raster); !warning.empty()) {
     warnings.push_back(warning);
   }
@@ -157,12 +156,23 @@ config::Roughness roughness_of_file(const config::Case& parameters, const Raster
 
 }  // namespace
 
+Raster read_dem(const std::string& file, const std::string& crs, std::vector<std::string>& warnings) {
+  const RasterFile opened(file, Quantity::length);
+  const std::string system = system_of(opened, crs, warnings);
+  add_warning(opened.conversion().warning, warnings);
+  Raster raster = opened.read();
+  check_elevations(file, raster);
+  raster.crs = system;
+  return raster;
+}
+
 Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings) {
   const config::Terrain& terrain = parameters.terrain;
   const auto opened = with_error_location(parameters, "terrain.file",
                                           [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
   const RasterFile& file = *opened;
-  const std::string system = system_of(parameters, file, warnings);
+  const std::string system = with_error_location(parameters, terrain.crs.empty() ? "terrain.file" : "terrain.crs",
+                                                 [&] { return system_of(file, terrain.crs, warnings); });
   add_warning(file.conversion().warning, warnings);
   check_distance(parameters, file);
   const Raster made = terrain.resample > 0.0 ? resampled_layout(file.layout(), terrain.resample) : Raster{};
@@ -207,6 +217,8 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
             : ""));
   }
   dem.raster.crs = dem.before_smoothing.crs = system;
+  const std::string of_key = terrain.crs.empty() ? "" : height_system_of(reference_system_named(terrain.crs));
+  dem.heights = of_key.empty() ? height_system_of(file.layout().crs) : of_key;
   return dem;
 }
 

@@ -2,6 +2,7 @@
 
 #include "gis/error_location.hpp"
 #include "gis/raster_file.hpp"
+#include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
@@ -9,6 +10,9 @@ namespace thawslide::gis {
 Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& warnings) {
   return with_error_location(parameters, request.key, [&] {
     const RasterFile file(request.file, request.quantity);
+    if (!request.heights.empty()) {
+      require_same_heights(request.file, height_system_of(file.layout().crs), request.heights);
+    }
     const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
     add_warning(system.warning, warnings);
     add_warning(file.conversion().warning, warnings);

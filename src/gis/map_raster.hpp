@@ -19,6 +19,7 @@ struct MapRequest {
   std::string crs;                     // of the ground
   std::optional<Rectangle> area;       // required area in the ground's coordinates; empty: the whole raster
   std::string reason = "the release";  // purpose in that area
+  std::string heights = {};            // vertical reference system of the DEM, for elevations
 };
 
 // The reference system is that of the file. It is that of the ground, with a warning, if the file has none, or one that

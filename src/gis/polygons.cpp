@@ -1,5 +1,7 @@
 #include "gis/polygons.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "base/error.hpp"
@@ -103,7 +105,9 @@ Polygon from_geometry(const OGRPolygon& polygon) {
   Polygon result;
   result.outline = from_geometry(*polygon.getExteriorRing());
   for (int k = 0; k < polygon.getNumInteriorRings(); ++k) {
-    result.holes.push_back(from_geometry(*polygon.getInteriorRing(k)));
+    if (!polygon.getInteriorRing(k)->IsEmpty()) {
+      result.holes.push_back(from_geometry(*polygon.getInteriorRing(k)));
+    }
   }
   return result;
 }
@@ -136,6 +140,25 @@ Polygons polygons_of_rings(const std::vector<Polyline2>& rings) {
   const std::unique_ptr<OGRGeometry> areas(
       OGRGeometryFactory::organizePolygons(parts.data(), static_cast<int>(parts.size()), nullptr, nullptr));
   return areas_of(*areas);
+}
+
+bool make_nested_rings_holes(Polygons& polygons) {
+  std::vector<Polyline2> rings;
+  for (const Polygon& polygon : polygons) {
+    rings.push_back(polygon.outline);
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  Polygons areas = polygons_of_rings(rings);
+  const GdalMessages messages;
+  const bool is_valid =
+      std::all_of(areas.begin(), areas.end(), [](const Polygon& area) { return to_geometry(area).IsValid() != 0; });
+  // A hole outside every outline would be an area.
+  if (!is_valid || areas.size() > polygons.size()) {
+    return false;
+  }
+  const double change = area_of(areas) - area_of(polygons);
+  polygons = std::move(areas);
+  return std::abs(change) > 1e-9 * area_of(polygons);
 }
 
 Polygons union_of(const Polygons& polygons) {

@@ -31,6 +31,14 @@ using Polygons = std::vector<Polygon>;
 // Areas bounded by closed rings, in which a ring inside another one is a hole.
 [[nodiscard]] Polygons polygons_of_rings(const std::vector<Polyline2>& rings);
 
+// Makes rings within others holes, and rings within holes areas, whatever the format and the direction of the rings.
+// Parts that only overlap or touch remain. Returns whether anything has changed.
+bool make_nested_rings_holes(Polygons& polygons);
+
+// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
+// in slivers.
+inline constexpr double overlap_tolerance = 1e-3;
+
 // Union: areas covered several times count once (GEOS).
 [[nodiscard]] Polygons union_of(const Polygons& polygons);
 // Area covered by both (GEOS).

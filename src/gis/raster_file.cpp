@@ -42,9 +42,6 @@ namespace {
                   file, messages.remark()));
 }
 
-// Other GDAL formats are excluded, because they may refer to files or network locations that a case may not name.
-const char* const raster_formats[] = {"GTiff", "AAIGrid", nullptr};
-
 GDALDatasetUniquePtr open_raster(const std::string& file) {
   const GdalMessages messages;
   GDALDriverH driver = GDALIdentifyDriver(file.c_str(), nullptr);
@@ -53,7 +50,7 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   const char* const as_double[] = {"DATATYPE=Float64", nullptr};
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(),
                                                  GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                                 raster_formats, is_ascii ? as_double : nullptr, nullptr));
+                                                 raster_formats(), is_ascii ? as_double : nullptr, nullptr));
   if (dataset == nullptr) {
     fail_open(file, messages);
   }
@@ -161,6 +158,11 @@ void require_plain_mask(const std::string& file) {
 
 }  // namespace
 
+const char* const* raster_formats() {
+  static const char* const formats[] = {"GTiff", "AAIGrid", nullptr};
+  return formats;
+}
+
 void require_readable(const std::string& file, double columns, double rows) {
   constexpr double copies = 2.0;  // while the raster is converted to the ground
   const double points = columns * rows, bytes = points * sizeof(double) * copies;
@@ -224,7 +226,16 @@ Rectangle RasterFile::extent() const {
 }
 
 Raster RasterFile::read(const std::optional<Rectangle>& window) const {
-  const PointWindow part = window ? points_in(layout_, *window) : PointWindow{0, 0, layout_.columns, layout_.rows};
+  Raster raster = read_points(window ? points_in(layout_, *window) : PointWindow{0, 0, layout_.columns, layout_.rows});
+  const bool any = std::any_of(raster.values.begin(), raster.values.end(), [](double v) { return !std::isnan(v); });
+  if (!any) {
+    throw UserError(fmt::format("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
+                                window ? " in the area asked for" : ""));
+  }
+  return raster;
+}
+
+Raster RasterFile::read_points(const PointWindow& part) const {
   THAWSLIDE_ASSERT(part.columns > 0 && part.rows > 0, "{}: a window without a point", file_);
   require_readable(file_, part.columns, part.rows);
   Raster raster = layout_of(layout_, part);
@@ -246,19 +257,17 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
                     messages.remark()));
   }
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  // A sum with an offset that is 0 exactly may differ from 0 after rounding.
+  const double rounding = 1e-12 * (std::abs(conversion_.factor * handle_->offset) + std::abs(conversion_.offset));
   const auto nodata_single = static_cast<float>(nodata_);
   for (double& value : raster.values) {
     const bool is_nodata =
         has_nodata_ && (value == nodata_ || (handle_->is_single && static_cast<float>(value) == nodata_single));
     value = is_nodata ? missing : conversion_.factor * (value * handle_->scale + handle_->offset) + conversion_.offset;
     value = std::isfinite(value) ? value : missing;
+    value = std::abs(value) < rounding ? 0.0 : value;
   }
   remove_masked(part, raster);
-  const bool any = std::any_of(raster.values.begin(), raster.values.end(), [](double v) { return !std::isnan(v); });
-  if (!any) {
-    throw UserError(fmt::format("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
-                                window ? " in the area asked for" : ""));
-  }
   return raster;
 }
 

@@ -12,6 +12,10 @@
 
 namespace thawslide::gis {
 
+// GDAL's drivers that may open a file of a user; ends with null. Other formats may refer to files or network locations
+// that a case may not name.
+[[nodiscard]] const char* const* raster_formats();
+
 // Call before allocating memory for the points of a file. Throws UserError if they exceed the limit, or the available
 // memory.
 void require_readable(const std::string& file, double columns, double rows);
@@ -38,6 +42,8 @@ class RasterFile {
   // scaled as the file specifies, and converted. NaN: nodata, values excluded by the file's mask or opacity band, and
   // non-finite values. Throws if no value is left.
   [[nodiscard]] Raster read(const std::optional<Rectangle>& window = std::nullopt) const;
+  // Reads the points of a window, which may all be without a value.
+  [[nodiscard]] Raster read_points(const PointWindow& part) const;
 
  private:
   struct Handle;
@@ -55,8 +61,9 @@ class RasterFile {
 enum class Precision { float32, float64 };
 
 struct BandText {
-  std::string unit;         // "m"
-  std::string description;  // "maximum thickness"
+  std::string unit;          // "m"
+  std::string description;   // "maximum thickness"
+  std::string heights = {};  // vertical reference system of elevations, as from height_system_of; empty: none
 };
 
 // Tiled, DEFLATE compressed, nodata -9999 for NaN, with the raster's reference system. The file is replaced atomically.

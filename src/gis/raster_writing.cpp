@@ -61,7 +61,14 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
                          raster.y_end() + 0.5 * raster.cell_y, 0.0,           -raster.cell_y};
   dataset->SetGeoTransform(transform);
   if (!raster.crs.empty()) {
-    const OGRSpatialReference reference = reference_from_wkt(raster.crs);
+    OGRSpatialReference reference = reference_from_wkt(raster.crs);
+    if (!text.heights.empty()) {
+      const OGRSpatialReference horizontal = reference;
+      OGRSpatialReference vertical;
+      vertical.SetVertCS(text.heights.c_str(), text.heights.c_str());  // in metres
+      const std::string name = fmt::format("{} + {}", horizontal.GetName(), text.heights);
+      reference.SetCompoundCS(name.c_str(), &horizontal, &vertical);
+    }
     dataset->SetSpatialRef(&reference);
   }
   GDALRasterBand& band = *dataset->GetRasterBand(1);

@@ -9,6 +9,9 @@ struct Rectangle {
   double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  // [m], or degrees in a geographic reference system
 
   [[nodiscard]] bool contains(double x, double y) const { return x >= min_x && x <= max_x && y >= min_y && y <= max_y; }
+  [[nodiscard]] bool contains(const Rectangle& other) const {
+    return contains(other.min_x, other.min_y) && contains(other.max_x, other.max_y);
+  }
   [[nodiscard]] bool touches(const Rectangle& other) const {
     return min_x <= other.max_x && other.min_x <= max_x && min_y <= other.max_y && other.min_y <= max_y;
   }

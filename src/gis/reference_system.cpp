@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -9,10 +10,13 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/error_location.hpp"
 #include "gis/gdal_messages.hpp"
+#include "gis/map_distortion.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
 
@@ -149,35 +153,14 @@ std::array<double, 2> middle_in_degrees(const Located& raster, const std::string
                   raster.file, unit, name_of(wkt), remedy));
 }
 
-// Its metres are those of the equator: at a latitude, lengths exceed those on the ground by the factor 1/cos(latitude)
-// (Snyder 1987, p. 44).
-bool is_web_mercator(const OGRSpatialReference& reference) {
-  const char* projection = reference.GetAttrValue("PROJECTION");
-  const char* authority = reference.GetAuthorityName(nullptr);
-  const char* code = reference.GetAuthorityCode(nullptr);
-  const bool by_code = authority != nullptr && code != nullptr && std::string(authority) == "EPSG" &&
-                       (std::string(code) == "3857" || std::string(code) == "3785");
-  const bool by_method = projection != nullptr && (std::string(projection) == "Popular Visualisation Pseudo Mercator" ||
-                                                   std::string(projection) == "Mercator_Auxiliary_Sphere");
-  const char* extension = reference.GetExtension(nullptr, "PROJ4", "");  // form in WKT 1
-  const std::string proj4 = extension == nullptr ? "" : extension;
-  return by_code || by_method || proj4.find("+a=6378137 +b=6378137") != std::string::npos;
-}
-
-// The message contains the factor by which lengths are too long at the centre of the raster.
-[[noreturn]] void fail_with_web_mercator(const Located& raster, const std::string& wkt, bool from_key) {
-  if (from_key) {
-    throw UserError(
-        fmt::format("{} is Web Mercator, whose lengths are those of the equator; allowed: a map projection in metres "
-                    "that keeps lengths, such as \"EPSG:31287\".",
-                    name_of(wkt)));
-  }
-  const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
-  const double stretch = 1.0 / std::cos(latitude * std::numbers::pi / 180.0);
-  throw UserError(fmt::format(
-      "{}: the coordinates are in Web Mercator ({}), where lengths at latitude {:.4g} are {:.3g} times too "
-      "long; allowed: a map projection that keeps lengths. Reproject: {}",
-      raster.file, name_of(wkt), latitude, stretch, warp_command(raster, "", longitude, latitude, 1.0 / stretch)));
+// "1.46 times those on the ground at its corner 1002000, 5900000"
+std::string format_scales(const PointScales& scales) {
+  const double ratio = scales.largest / scales.smallest;
+  const std::string range = ratio < 1.001
+                                ? fmt::format("{:.3g}", scales.largest)
+                                : fmt::format("{:.3g} to {:.3g}, by direction,", scales.smallest, scales.largest);
+  return fmt::format("{} times those on the ground at the corner {}, {}", range, coordinate_text(scales.x),
+                     coordinate_text(scales.y));
 }
 
 // The key georeferences a DEM and does not change its values.
@@ -285,15 +268,54 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   if (std::abs(metres_per_unit - 1.0) > 1e-9) {
     fail_with_unit(raster, wkt, unit == nullptr ? "unknown" : unit, metres_per_unit, from_key);
   }
-  if (is_web_mercator(reference)) {
-    fail_with_web_mercator(raster, wkt, from_key);
-  }
   if (from_key) {
     require_metric_heights(reference, name_of(wkt));
   }
   reference.StripVertical();
   reference.DemoteTo2D(nullptr);
   return wkt_from_reference(&reference);
+}
+
+std::string distortion_note(const Located& raster, const std::string& wkt, bool from_key) {
+  constexpr double noticeable = 0.01, most = 0.05;
+  const PointScales scales = worst_scales(wkt, raster.extent);
+  if (scales.error() > most) {
+    const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
+    const std::string source = from_key ? fmt::format("-s_srs {} ", shell_quote(name_of(wkt))) : "";
+    throw UserError(fmt::format(
+        "{}: lengths in the map projection {} are {}; allowed: a projection that preserves lengths to within {:g} %. "
+        "Reproject: {}",
+        raster.file, name_of(wkt), format_scales(scales), 100.0 * most,
+        warp_command(raster, source, longitude, latitude, 1.0 / std::sqrt(scales.smallest * scales.largest))));
+  }
+  return scales.error() <= noticeable
+             ? ""
+             : fmt::format("note: lengths in the map projection of {}, {}, are {}",
+                           std::filesystem::path(raster.file).filename().string(), name_of(wkt), format_scales(scales));
+}
+
+std::string height_system_of(const std::string& wkt) {
+  const GdalMessages messages;
+  const OGRSpatialReference reference = reference_from_wkt(wkt);
+  const auto named = [&reference](const char* node) -> std::string {
+    const char* name = reference.GetAttrValue(node);
+    return name == nullptr || lower_case(name).find("unknown") != std::string::npos ? "" : name;
+  };
+  if (reference.IsCompound() == 0) {
+    return reference.GetAxesCount() == 3 ? named("DATUM") : "";
+  }
+  const std::string datum = named("COMPD_CS|VERT_CS|VERT_DATUM");
+  return datum.empty() ? named("COMPD_CS|VERT_CS") : datum;
+}
+
+void require_same_heights(const std::string& file, const std::string& found, const std::string& dem) {
+  if (!found.empty() && !dem.empty() && lower_case(found) != lower_case(dem)) {
+    throw UserError(fmt::format(
+        "{}: the elevations refer to '{}', those of the DEM to '{}'; allowed: one vertical reference system. Transform "
+        "one of the files (gdalwarp -s_srs ... -t_srs ...), or state the same system in both, if they have the same: "
+        "gdal_edit.py -a_srs EPSG:... {}",
+        file, found, dem, shell_quote(file)));
+  }
 }
 
 std::string location_warning(const Located& raster, const std::string& wkt) {

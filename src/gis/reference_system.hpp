@@ -34,6 +34,15 @@ void require_projection_database();
 [[nodiscard]] std::string metric_system(const Located& raster, const std::string& wkt_of_file,
                                         const std::string& terrain_crs);
 
+// Note if lengths on the map differ from those on the ground by more than 1 % at a corner of the raster; empty
+// otherwise. Throws UserError beyond 5 %. `from_key`: the system is that of terrain.crs.
+[[nodiscard]] std::string distortion_note(const Located& raster, const std::string& wkt, bool from_key);
+
+// Name of the vertical datum, or of the horizontal one for ellipsoidal heights; empty if it is not specified.
+[[nodiscard]] std::string height_system_of(const std::string& wkt);
+// Throws UserError if both height systems are specified, and differ.
+void require_same_heights(const std::string& file, const std::string& found, const std::string& dem);
+
 // Warning if a raster lies far outside the area of use of its system; empty otherwise.
 [[nodiscard]] std::string location_warning(const Located& raster, const std::string& wkt);
 

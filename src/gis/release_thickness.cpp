@@ -29,6 +29,7 @@ class ThicknessMaker {
         area_(area),
         ground_(ground.raster),
         measured_(ground.as_measured()),
+        heights_(ground.heights),
         warnings_(warnings) {}
 
   Raster make() {
@@ -165,7 +166,8 @@ class ThicknessMaker {
   Raster read_thickness_map() const {
     return read_map(case_,
                     {key_of(name_, "thickness"), body_.thickness.source, Quantity::length, ground_.crs,
-                     span_of_points(area_.fraction)},
+                     span_of_points(area_.fraction), "the release",
+                     body_.thickness.from == MapValue::From::surface ? heights_ : ""},
                     warnings_);
   }
 
@@ -278,6 +280,7 @@ class ThicknessMaker {
   const ReleaseArea& area_;
   const Raster& ground_;
   const Raster& measured_;  // not smoothed, like the surface before release
+  const std::string& heights_;
   std::vector<std::string>& warnings_;
 };
 

@@ -90,6 +90,7 @@ SiteAndWarnings load_site(const config::Case& parameters) {
     dem = load_dem(parameters, loaded.warnings);
     site.roughness = dem.roughness;
     site.crs = dem.raster.crs;
+    site.heights = dem.heights;
     site.crs_name = name_of(site.crs);
   }
   std::map<std::string, LoadedRelease> releases;

@@ -16,10 +16,6 @@ namespace thawslide::gis {
 
 namespace {
 
-// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
-// in slivers.
-constexpr double overlap_tolerance = 1e-3;
-
 using Areas = std::map<std::string, config::SubstrateArea>;
 using PolygonsOf = std::map<std::string, Polygons>;  // by name of the substrate, within the domain
 

@@ -19,10 +19,6 @@ namespace {
 
 using Releases = std::map<std::string, LoadedRelease>;
 
-// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
-// in slivers.
-constexpr double overlap_tolerance = 1e-3;
-
 // Raster accessed by the indices of another layout of the same grid; 0 outside it.
 class ByIndicesOf {
  public:

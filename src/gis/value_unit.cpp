@@ -102,6 +102,18 @@ constexpr Spelling fractions[] = {
     {"m3m3", 1.0}, {"%", 0.01},       {"percent", 0.01}, {"percentage", 0.01},
 };
 
+// clang-format off
+constexpr Spelling speeds[] = {
+    {"m/s", 1.0}, {"ms1", 1.0}, {"mps", 1.0}, {"cm/s", 0.01}, {"mm/s", 1e-3}, {"km/h", 1.0 / 3.6}, {"kmh", 1.0 / 3.6},
+    {"kmh1", 1.0 / 3.6}, {"kph", 1.0 / 3.6}, {"ft/s", 0.3048}, {"mph", 0.44704}, {"mi/h", 0.44704}, {"kn", 1852.0 / 3600},
+};
+
+constexpr Spelling times[] = {
+    {"s", 1.0}, {"sec", 1.0}, {"second", 1.0}, {"seconds", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"minute", 60.0},
+    {"minutes", 60.0}, {"h", 3600.0}, {"hr", 3600.0}, {"hour", 3600.0}, {"hours", 3600.0},
+};
+// clang-format on
+
 struct UnitsOfQuantity {
   const Spelling* begin;
   const Spelling* end;
@@ -117,6 +129,10 @@ UnitsOfQuantity units_of(Quantity quantity) {
       return {std::begin(temperatures), std::end(temperatures), "temperature", "C, K, F", "degrees Celsius", "C"};
     case Quantity::fraction:
       return {std::begin(fractions), std::end(fractions), "fraction", "1, %", "fractions of 1", "1"};
+    case Quantity::speed:
+      return {std::begin(speeds), std::end(speeds), "speed", "m/s, cm/s, mm/s, km/h, ft/s, mph, kn", "m/s", "m/s"};
+    case Quantity::time:
+      return {std::begin(times), std::end(times), "time", "s, ms, min, h", "seconds", "s"};
     case Quantity::length:
     case Quantity::code:
       break;

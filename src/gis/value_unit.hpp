@@ -6,8 +6,8 @@
 namespace thawslide::gis {
 
 // Quantity of the values of a raster: lengths [m] (elevations, thicknesses, depths of a bed), temperatures [C],
-// fractions of a volume [1], or codes, which have no unit.
-enum class Quantity { length, temperature, fraction, code };
+// fractions of a volume [1], speeds [m/s], times [s], or codes, which have no unit.
+enum class Quantity { length, temperature, fraction, speed, time, code };
 
 // Units stated in a file; empty: none.
 struct StatedUnits {
@@ -24,8 +24,8 @@ struct UnitConversion {
 };
 
 // A band of lengths without a unit has the vertical unit of its reference system. Without either, values are in metres,
-// degrees Celsius or fractions of 1. Throws UserError for an unknown unit or one of another quantity, and for two
-// contradictory units.
+// degrees Celsius, fractions of 1, m/s or s. Throws UserError for an unknown unit or one of another quantity, and for
+// two contradictory units.
 [[nodiscard]] UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity);
 
 }  // namespace thawslide::gis

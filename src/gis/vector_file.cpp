@@ -14,12 +14,14 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
+#include "gis/data_set.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
 #include "gis/polygon_checks.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
+#include "gis/text_encoding.hpp"
 #include "gis/unreadable_files.hpp"
 
 namespace thawslide::gis {
@@ -59,14 +61,14 @@ std::vector<std::string> all_shown(std::vector<std::string> names) {
   return names;
 }
 
-// Other GDAL formats are excluded, because they may refer to files or network locations that a case may not name.
-// The driver "KML" does not follow links, unlike "LIBKML".
-const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", "KML", nullptr};
-
-GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
+GDALDatasetUniquePtr open_vector(const std::string& file, const std::string& readable, Kind kind) {
   const GdalMessages messages;
   GDALDatasetUniquePtr dataset(
-      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, vector_formats));
+      GDALDataset::Open(readable.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, vector_formats()));
+  if (dataset != nullptr && has_unknown_encoding(*dataset)) {
+    const char* const as_stored[] = {"ENCODING=", nullptr};
+    dataset.reset(GDALDataset::Open(readable.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, vector_formats(), as_stored));
+  }
   if (dataset == nullptr) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
@@ -142,9 +144,10 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
 
 class LayerReader {
  public:
-  LayerReader(const std::string& file, const std::string& crs, Kind kind) : kind_(kind) {
+  LayerReader(const std::string& file, const std::string& crs, Kind kind) : kind_(kind), readable_(file) {
+    const GdalMessages messages;
     result_.file = file;
-    dataset_ = open_vector(file, kind);
+    dataset_ = open_vector(file, readable_.path().string(), kind);
     layer_ = &layer_with(file, *dataset_, kind);
     choose_reprojection(crs);
   }
@@ -153,7 +156,7 @@ class LayerReader {
     const GdalMessages messages;
     const OGRFeatureDefn& definition = *layer_->GetLayerDefn();
     for (int k = 0; k < definition.GetFieldCount(); ++k) {
-      result_.attributes.emplace_back(definition.GetFieldDefn(k)->GetNameRef());
+      result_.attributes.push_back(as_utf8(definition.GetFieldDefn(k)->GetNameRef()));
     }
     const auto require_whole = [&] {
       if (messages.any_error()) {
@@ -207,6 +210,10 @@ class LayerReader {
     const std::unique_ptr<OGRGeometry> geometry(source.GetGeometryRef()->getLinearGeometry());
     geometry->flattenTo2D();
     read_geometry(*geometry, feature);
+    if (make_nested_rings_holes(feature.polygons)) {
+      result_.warnings.push_back(fmt::format("note: {}: {} has rings within others, which are holes",
+                                             std::filesystem::path(result_.file).filename().string(), feature.title));
+    }
     for (int index = 0; index < source.GetFieldCount(); ++index) {
       if (!source.IsFieldSetAndNotNull(index)) {
         continue;
@@ -214,7 +221,7 @@ class LayerReader {
       const std::string& name = result_.attributes[static_cast<std::size_t>(index)];
       const OGRFieldType type = source.GetFieldDefnRef(index)->GetType();
       const bool is_boolean = source.GetFieldDefnRef(index)->GetSubType() == OFSTBoolean;
-      feature.texts[name] = !is_boolean                            ? source.GetFieldAsString(index)
+      feature.texts[name] = !is_boolean                            ? as_utf8(source.GetFieldAsString(index))
                             : source.GetFieldAsInteger(index) == 0 ? "false"
                                                                    : "true";
       if (!is_boolean && (type == OFTReal || type == OFTInteger || type == OFTInteger64)) {
@@ -231,12 +238,15 @@ class LayerReader {
     const int index = found == result_.attributes.end() ? source.GetFieldIndex("name")
                                                         : static_cast<int>(found - result_.attributes.begin());
     const std::string name =
-        index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? source.GetFieldAsString(index) : "";
+        index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? as_utf8(source.GetFieldAsString(index)) : "";
     return fmt::format("{} {}{}", kind, result_.features.size() + 1,
                        name.empty() ? "" : " (" + config::shown(name) + ")");
   }
 
   void read_geometry(const OGRGeometry& geometry, Feature& feature) {
+    if (geometry.IsEmpty()) {
+      return;  // a part; a feature has others
+    }
     switch (wkbFlatten(geometry.getGeometryType())) {
       case wkbPolygon:
         if (kind_ == Kind::polygons) {
@@ -300,6 +310,7 @@ class LayerReader {
   }
 
   Kind kind_;
+  ReadableFile readable_;
   GDALDatasetUniquePtr dataset_;
   OGRLayer* layer_ = nullptr;
   Reprojection reprojection_{"", ""};
@@ -308,6 +319,11 @@ class LayerReader {
 };
 
 }  // namespace
+
+const char* const* vector_formats() {
+  static const char* const formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", "KML", nullptr};
+  return formats;
+}
 
 VectorLayer read_polygons(const std::string& file, const std::string& crs) {
   return LayerReader(file, crs, Kind::polygons).read();

@@ -27,6 +27,9 @@ struct VectorLayer {
   std::vector<std::string> warnings;    // from the reading
 };
 
+// As raster_formats. The driver "KML" does not follow links, unlike "LIBKML".
+[[nodiscard]] const char* const* vector_formats();
+
 // Each function reads the only layer of this kind in the file, and checks it: polygons have an area and do not
 // intersect themselves. `crs`: WKT of the ground, to which coordinates in another system are transformed.
 [[nodiscard]] VectorLayer read_polygons(const std::string& file, const std::string& crs);

@@ -173,7 +173,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
                       "the file another name.",
                       file.string()));
     }
-    THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
+    THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which run::input_files refuses", name);
     const auto known = texts.find(file);
     const std::string content = known == texts.end() ? read_file(file) : known->second;
     write_file_atomically(folder / "inputs" / name, content);

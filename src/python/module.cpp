@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -21,9 +20,9 @@
 #include "base/parallel.hpp"
 #include "base/waiting_threads.hpp"
 #include "config/describe.hpp"
-#include "config/input_files.hpp"
 #include "config/overrides.hpp"
 #include "config/read_case.hpp"
+#include "python/bindings.hpp"
 #include "python/observer.hpp"
 #include "run/block_model.hpp"
 #include "run/live_run.hpp"
@@ -38,14 +37,6 @@ using namespace nb::literals;
 namespace thawslide::python {
 
 namespace {
-
-template <class T>
-nb::object copied(const std::vector<T>& values, std::initializer_list<std::size_t> shape) {
-  auto* copy = new T[values.size()];
-  const nb::capsule owner(copy, [](void* memory) noexcept { delete[] static_cast<T*>(memory); });
-  std::copy(values.begin(), values.end(), copy);
-  return nb::cast(nb::ndarray<nb::numpy, T>(copy, shape, owner));
-}
 
 // Calls a law with copies of the arrays of the nodes, and replaces their strengths by the array that it returns. The
 // caller does not hold the GIL. Exceptions of the law pass through the step.
@@ -184,13 +175,11 @@ config::Case case_of(const Texts& files, const Texts& sets) {
 nb::dict columns_of(const std::vector<sim::HistoryRow>& rows) {
   nb::dict columns;
   for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
-    auto* values = new double[rows.size()];
-    const nb::capsule owner(values, [](void* memory) noexcept { delete[] static_cast<double*>(memory); });
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      values[k] = rows[k][c].second;
+    std::vector<double> values;
+    for (const sim::HistoryRow& row : rows) {
+      values.push_back(row[c].second);
     }
-    const std::size_t shape[] = {rows.size()};
-    columns[rows.front()[c].first.c_str()] = nb::ndarray<nb::numpy, double>(values, 1, shape, owner);
+    columns[rows.front()[c].first.c_str()] = copied(values, {values.size()});
   }
   return columns;
 }
@@ -210,6 +199,7 @@ NB_MODULE(_core, module) {
   nb::exception<WriteError>(module, "WriteError", user_error.ptr());
   nb::exception<RunError>(module, "RunError", PyExc_RuntimeError);
   nb::exception<DeviceError>(module, "DeviceError", PyExc_RuntimeError);
+  bind_files(module);
 
   nb::class_<config::Case>(module, "Case")
       .def_ro("name", &config::Case::name)
@@ -233,13 +223,6 @@ NB_MODULE(_core, module) {
     return files;
   });
   module.def("case_of", [](const Texts& files, const Texts& sets) { return case_of(files, sets); });
-  module.def("input_files", [](const config::Case& parameters) {
-    std::vector<std::string> files;
-    for (const std::filesystem::path& file : config::input_files(parameters)) {
-      files.push_back(file.string());
-    }
-    return files;
-  });
   module.def("schema_json", &config::schema_json);
   module.def("resolved_toml", [](const config::Case& parameters) { return config::resolved_toml(parameters, ""); });
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/rounding.hpp"
-#include "config/input_files.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
 #include "io/snapshot.hpp"
+#include "run/input_files.hpp"
 #include "run/map_output.hpp"
 #include "sim/history.hpp"
 #include "sim/memory_need.hpp"
@@ -40,7 +40,7 @@ double count_of(const config::Time& time, double interval, double steps, bool cu
 
 double bytes_of_files(const config::Case& parameters) {
   double bytes = 0.0;
-  for (const fs::path& file : config::input_files(parameters)) {
+  for (const fs::path& file : input_files(parameters)) {
     std::error_code unknown;
     const auto size = fs::file_size(file, unknown);
     bytes += unknown ? 0.0 : static_cast<double>(size);

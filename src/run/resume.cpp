@@ -321,7 +321,7 @@ ExitCode resume_run(const ResumeOptions& options, Observer& observer) {
   if (next.parameters.general.dimension == 3) {
     io::require_own_folders(folder, {"maps"});
   }
-  require_same_inputs(folder, facts.inputs, next.parameters.report);
+  require_same_inputs(folder, facts.inputs, next.parameters);
   next.earlier.parts.back().warnings = changed_originals(facts.inputs);
   return with_dimension(next.parameters.general.dimension,
                         [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {

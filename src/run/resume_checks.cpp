@@ -14,6 +14,7 @@
 #include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/sha256.hpp"
+#include "run/input_files.hpp"
 
 namespace thawslide::run {
 
@@ -88,8 +89,7 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
   return otherwise;
 }
 
-void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs,
-                         const config::Report& compared) {
+void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs, const config::Case& now) {
   std::vector<std::string> changed;
   for (const io::InputFile& input : inputs) {
     const fs::path copy = folder / input.copy;
@@ -98,13 +98,21 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
                                   (folder / "run.json").string(), input.copy));
     }
     const auto is_copy_of = [&copy](const fs::path& file) { return copy.filename() == file.filename(); };
-    if (is_copy_of(compared.targets) || is_copy_of(compared.force_record)) {
+    if (is_copy_of(now.report.targets) || is_copy_of(now.report.force_record)) {
       continue;
     }
     if (!fs::exists(copy)) {
       changed.push_back(copy.string() + " is missing");
     } else if (io::sha256_of_file(copy) != input.sha256) {
       changed.push_back(copy.string() + " has changed");
+    }
+  }
+  for (const fs::path& file : input_files(now)) {
+    const auto is_copy = [&file](const io::InputFile& input) {
+      return fs::path(input.copy).filename() == file.filename();
+    };
+    if (file.parent_path().filename() == "inputs" && std::none_of(inputs.begin(), inputs.end(), is_copy)) {
+      changed.push_back(file.string() + " was added and must be removed");
     }
   }
   if (!changed.empty()) {

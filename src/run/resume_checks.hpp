@@ -17,10 +17,10 @@ namespace thawslide::run {
 [[nodiscard]] std::string advice_on(const std::filesystem::path& folder, const io::Provenance& facts,
                                     const std::vector<std::string>& changes, const std::string& otherwise);
 
-// Requires that the copies of the inputs are unchanged. Those of [report] may change, because they are used only for
-// comparison in figures.
+// Requires that the copies of the inputs are unchanged, and that no file has been added to a copied map. Those of
+// [report] may change, because they are used only for comparison in figures.
 void require_same_inputs(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
-                         const config::Report& compared);
+                         const config::Case& now);
 
 // Notes on original input files that have changed. A run continues with its copies regardless.
 [[nodiscard]] std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs);

@@ -26,7 +26,8 @@ class FrontWatch {
   template <int Dim>
   ProgressState state(const sim::Simulation<Dim>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
-    const double speed = elapsed > 0.0 ? sim::front_along_x(simulation).direction * (front - front_) / elapsed : std::nan("");
+    const double speed =
+        elapsed > 0.0 ? sim::front_along_x(simulation).direction * (front - front_) / elapsed : std::nan("");
     front_ = front;
     time_ = simulation.time();
     return {simulation.time(), simulation.parameters().time.end, steps, front, speed};

@@ -4,10 +4,10 @@
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "config/describe.hpp"
-#include "config/input_files.hpp"
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "io/terrain_csv.hpp"
+#include "run/input_files.hpp"
 #include "run/state.hpp"
 #include "sim/base_table.hpp"
 #include "sim/history.hpp"
@@ -79,7 +79,7 @@ io::Provenance first_part(const config::Case& parameters, const fs::path& folder
   for (const config::CaseFile& each : parameters.case_files) {
     texts[each.file] = each.text;
   }
-  provenance.inputs = io::copy_inputs(folder, config::input_files(parameters), texts);
+  provenance.inputs = io::copy_inputs(folder, input_files(parameters), texts);
   write_file_atomically(folder / "case.toml", config::resolved_toml(parameters, "inputs"));
   provenance.parts.push_back(io::part_of_this_process());
   provenance.parts.back().case_sha256 = io::sha256_of_file(folder / "case.toml");

@@ -49,11 +49,9 @@ IN_ANOTHER_UNIT = "Is the thickness in the wrong unit? Metres are needed."
 A_DEM = "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness."
 SWAPPED = """--dem: release.geojson is not a raster, and dem.tif is one: the DEM and the release are swapped. Give
     --dem dem.tif --release release.geojson.\n"""
-MERCATOR = """--dem: dem.tif: the coordinates are in Web Mercator (EPSG:3857), where lengths at latitude 42 are 1.35
-    times too long; allowed: a map projection that keeps lengths. Reproject: gdalwarp -t_srs EPSG:32631 -tr 7.4 7.4 -r
-    bilinear dem.tif dem-EPSG32631.tif\n"""
-MERCATOR_OPTION = """--crs: EPSG:3857 is Web Mercator, whose lengths are those of the equator; allowed: a map projection
-    in metres that keeps lengths, such as "EPSG:31287".\n"""
+MERCATOR = """{} lengths in the map projection EPSG:3857 are 1.35 times those on the ground at the corner 411995,
+    5160595; allowed: a projection that preserves lengths to within 5 %. Reproject: gdalwarp -t_srs EPSG:32631 -tr 7.4
+    7.4 -r bilinear dem.tif dem-EPSG32631.tif\n"""
 RASTER = """--thickness: thick.tif is a raster, whose values are the thickness in metres; leave --thickness out, or give
     polygons to --release.\n"""
 NO_CRS = """--dem: bare.tif: the file names no coordinate reference system (x from 411995 to 412895, y from 5159995 to
@@ -92,8 +90,11 @@ REFUSED: list[tuple[str, Callable[[Slope], dict[str, Any]]]] = [
     ),
     (WRONG_CRS, lambda slope: {"dem": slope("wrong.tif", crs="EPSG:4326")}),
     ("--dem: degrees.tif: the coordinates are degrees", lambda slope: {"dem": degrees(slope)}),
-    (MERCATOR, lambda slope: {"dem": slope(crs="EPSG:3857")}),
-    (MERCATOR_OPTION, lambda _: {"words": ["--crs", "EPSG:3857"]}),
+    (MERCATOR.format("--dem: dem.tif:"), lambda slope: {"dem": slope(crs="EPSG:3857")}),
+    (
+        MERCATOR.format("--crs: dem.tif:").replace("-t_srs", "-s_srs EPSG:3857 -t_srs"),
+        lambda _: {"words": ["--crs", "EPSG:3857"]},
+    ),
     (
         "--dem: absent.tif: there is no such file. Correct the path.\n",
         lambda slope: {"dem": slope.folder / "absent.tif"},

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "config/describe.hpp"
-#include "config/input_files.hpp"
+#include "config/named_files.hpp"
 #include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "target.hpp"
@@ -41,7 +41,7 @@ void read_and_write_case(std::string_view text) {
     return;
   }
   static_cast<void>(config::notices(read));
-  static_cast<void>(config::input_files(read));
+  static_cast<void>(config::named_files(read));
   const std::string resolved = config::resolved_toml(read, "inputs");
   const std::string again = write("resolved.toml", resolved);
   const bool is_taken = gives_value(again, [&] {

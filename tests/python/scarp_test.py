@@ -1,15 +1,13 @@
 """Releases from planes and ellipsoids against closed forms, their files, and matched volumes."""
 
 import math
-import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
-from rasterio.crs import CRS
 from rasterio.warp import transform
-from scarp_files import NORTH, WEST, Ring, centre, rectangle, write_dem, write_outline
+from scarp_files import NORTH, WEST, centre, rectangle, write_dem, write_outline
 
 import thawslide
 from thawslide.arrays import Numbers
@@ -124,16 +122,6 @@ def test_ellipsoids_and_planes_reach_a_volume(tmp_path: Path) -> None:
     assert release.surface[0].depth == pytest.approx(0.0, abs=0.2)
 
 
-def write_shapefile(path: Path, *rings: Ring) -> Path:
-    points = np.concatenate([np.array(ring) for ring in rings])
-    starts = np.cumsum([0, *(len(ring) for ring in rings[:-1])])
-    content = struct.pack("<i4d2i", 5, 0.0, 0.0, 0.0, 0.0, len(rings), len(points))
-    content += np.asarray(starts, "<i4").tobytes() + points.astype("<f8").tobytes()
-    path.write_bytes(bytes(100) + struct.pack(">2i", 1, len(content) // 2) + content)
-    path.with_suffix(".prj").write_text(CRS.from_epsg(32608).to_wkt())
-    return path
-
-
 def test_formats_of_outlines_give_equal_cells(tmp_path: Path) -> None:
     dem = write_dem(tmp_path / "dem.tif", flat)
     outline, hole = rectangle((-203.0, 107.0), (-151.0, 149.0)), rectangle((-50.0, 31.0), (-20.0, 40.0))
@@ -144,11 +132,10 @@ def test_formats_of_outlines_give_equal_cells(tmp_path: Path) -> None:
         [list(point) for point in zip(*transform("EPSG:32608", "EPSG:4326", *zip(*ring, strict=True)), strict=True)]
         for ring in (outline, hole)
     ]
-    shapefile = write_shapefile(tmp_path / "c.shp", outline, hole)
-    files = [write_outline(tmp_path / "b.geojson", *degrees, crs=None), shapefile]
-    assert main([str(dem), f"--plane=x={X},y={Y},dip=0,direction=0,depth=20", "--within", str(files[1]),
+    other = write_outline(tmp_path / "b.geojson", *degrees, crs=None)
+    assert main([str(dem), f"--plane=x={X},y={Y},dip=0,direction=0,depth=20", "--within", str(other),
                  "--output", str(tmp_path / "d.tif")]) == 0  # fmt: skip
-    for within in [*files, tmp_path / "d.gpkg"]:
+    for within in (other, tmp_path / "d.gpkg"):
         assert np.array_equal(thawslide.scarp(dem, surface, within=within).thickness, projected.thickness), within
 
 

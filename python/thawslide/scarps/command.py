@@ -33,6 +33,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ReportError as error:
         print_line(f"thawslide scarp: error: {error}", sys.stderr)
         return 2
+    for note in release.dem.notes:
+        print(printable(f"thawslide scarp: {note}"), file=sys.stderr)
     for line in _lines(release, given):
         print_line(line)
     if release.parts > 1:
@@ -109,7 +111,7 @@ def _parser() -> argparse.ArgumentParser:
         "level.",
     )
     add = parser.add_argument
-    add("dem", metavar="DEM", type=Path, help="DEM in projected metres: GeoTIFF or ESRI ASCII grid")
+    add("dem", metavar="DEM", type=Path, help="DEM in a map projection in metres: GeoTIFF or ESRI ASCII grid")
     add(
         "--plane",
         metavar="KEY=NUMBER,...",
@@ -131,8 +133,8 @@ def _parser() -> argparse.ArgumentParser:
         "--within",
         metavar="FILE",
         type=Path,
-        help="polygons that limit the release: GeoPackage, GeoJSON or Shapefile (default: planes release the part that "
-        "contains the point of the first plane)",
+        help="polygons that limit the release: GeoPackage, GeoJSON, Shapefile or KML (default: planes release the part "
+        "that contains the point of the first plane)",
     )
     add(
         "--volume",
@@ -140,7 +142,11 @@ def _parser() -> argparse.ArgumentParser:
         type=float,
         help="volume of the release, which determines the depth of the planes or of the ellipsoid, or C [m3]",
     )
-    add("--crs", metavar="CRS", help="coordinate reference system of a DEM whose file has none, such as EPSG:31287")
+    add(
+        "--crs",
+        metavar="CRS",
+        help="coordinate reference system of the DEM, such as EPSG:31287 (default: its own)",
+    )
     add(
         "--output",
         metavar="FILE",

@@ -1,24 +1,22 @@
-"""DEM of a release: a north-up raster of elevations in projected metres."""
+"""DEM of a release, and outlines as its cells."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import rasterio
 from numpy.typing import NDArray
-from rasterio.crs import CRS
-from rasterio.errors import CRSError, RasterioError
+from rasterio import Affine
+from rasterio.features import rasterize
 
+from thawslide import _core
 from thawslide.arrays import Numbers
-from thawslide.errors import ReportError, quoted
+from thawslide.errors import ReportError
+from thawslide.map_files import read_polygons, read_raster
 
 Mask = NDArray[np.bool_]
-
-_METRES = ("", "m", "metre", "metres", "meter", "meters")
 
 
 @dataclass(frozen=True)
@@ -26,9 +24,10 @@ class Dem:
     """Elevations [m] at the centres of cells, shape (rows, columns), rows from north to south; nan: no data."""
 
     path: Path
+    raster: _core.Raster  # as it was read
     heights: Numbers
-    transform: Any  # affine.Affine: from column and row to coordinates
-    crs: CRS | None
+    transform: Affine  # from column and row to coordinates
+    notes: list[str] = field(default_factory=list)  # notes and warnings from reading the DEM and outlines on it
 
     @property
     def cell_x(self) -> float:
@@ -84,6 +83,20 @@ class Dem:
                 f"x = {x:.10g}, y = {y:.10g}). Fill them, or change the outline."
             )
 
+    def cells_within(self, path: Path) -> Mask:
+        """Return the cells whose centres are inside the polygons of a file."""
+        polygons, notes = read_polygons(path, self.raster.crs)
+        self.notes.extend(notes)
+        corners = np.concatenate([ring for rings in polygons for ring in rings])
+        (west, south), (east, north) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+        self.require_extent(west, south, east, north, f"--within {path}")
+        shapes = [{"type": "Polygon", "coordinates": [ring.tolist() for ring in rings]} for rings in polygons]
+        inside = rasterize(shapes, out_shape=self.heights.shape, transform=self.transform, dtype="uint8") > 0
+        if not inside.any():
+            raise ReportError(f"--within {path}: no centre of a cell of {self.path} is inside. Draw a larger outline.")
+        self.require_data(inside, f"--within {path}")
+        return np.asarray(inside)
+
     def height_at(self, x: float, y: float, subject: str) -> float:
         """Return the elevation at a point [m], bilinear between the centres of cells."""
         self.require_extent(x, y, x, y, subject)
@@ -110,45 +123,11 @@ def _extent_text(west: float, south: float, east: float, north: float) -> str:
 
 
 def read_dem(path: Path, crs: str | None = None) -> Dem:
-    """Read a DEM (GeoTIFF or ESRI ASCII grid); `crs` is the coordinate system of a file without one."""
-    if not path.is_file():
-        raise ReportError(f"{path}: no such file. Correct the path of the DEM.")
-    try:
-        with rasterio.open(path) as file:
-            heights = file.read(1, masked=True).astype(np.float64).filled(np.nan)
-            transform, system, unit, bands = file.transform, file.crs, file.units[0], file.count
-            driver = file.driver
-    except RasterioError as error:
-        raise ReportError(f"{path}: cannot be read as a GeoTIFF or ESRI ASCII grid ({error}). Convert it.") from error
-    if driver not in ("GTiff", "AAIGrid"):
-        raise ReportError(f"{path}: unknown format (found {driver}; allowed GeoTIFF, ESRI ASCII grid). Convert it.")
-    if bands > 2 or min(heights.shape) < 3:
-        shape = f"{bands} bands of {heights.shape[1]} x {heights.shape[0]} cells"
-        raise ReportError(f"{path}: not a DEM (found {shape}; allowed 1 band, at least 3 x 3 cells). Correct the path.")
-    if transform.b or transform.d or transform.a <= 0.0 or transform.e >= 0.0:
-        raise ReportError(f"{path}: the raster is not north-up. Resample it, e.g. with gdalwarp.")
-    if (unit or "").strip().lower() not in _METRES:
-        raise ReportError(f"{path}: elevations are not in metres (found {quoted(unit)}). Convert them.")
-    dem = Dem(path, np.where(np.isfinite(heights), heights, np.nan), transform, _system_of(path, system, crs))
-    if not np.isfinite(dem.heights).any():
-        raise ReportError(f"{path}: no cell has data. Correct the path of the DEM.")
-    return dem
-
-
-def _system_of(path: Path, found: CRS | None, given: str | None) -> CRS | None:
-    if given is not None:
-        try:
-            stated = CRS.from_user_input(given)
-        except CRSError as error:
-            raise ReportError(
-                f"--crs: unknown coordinate system (found {quoted(given)}). Use e.g. EPSG:31287."
-            ) from error
-        if found is not None and found != stated:
-            raise ReportError(f"--crs: {path} already has the coordinate system {found.to_string()}. Omit --crs.")
-        found = stated
-    if found is not None and (not found.is_projected or abs(found.linear_units_factor[1] - 1.0) > 1e-9):
-        raise ReportError(
-            f"{path}: the coordinate system {found.to_string()} is not in projected metres. Reproject the DEM, "
-            "e.g. to UTM."
-        )
-    return found
+    """Read a DEM (GeoTIFF or ESRI ASCII grid); `crs` replaces the coordinate reference system of its file."""
+    raster, notes = read_raster(path, crs or "")
+    if min(raster.rows, raster.columns) < 3:
+        shape = f"{raster.columns} x {raster.rows}"
+        raise ReportError(f"{path}: not a DEM (found {shape} cells; allowed at least 3 x 3). Correct the path.")
+    west, north = raster.x - 0.5 * raster.cell_x, raster.y + (raster.rows - 0.5) * raster.cell_y
+    transform = Affine(raster.cell_x, 0.0, west, 0.0, -raster.cell_y, north)
+    return Dem(path, raster, np.asarray(raster.values)[::-1], transform, notes)

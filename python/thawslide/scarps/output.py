@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Sequence
 from pathlib import Path
 
-import rasterio
-
-from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError
-from thawslide.geopackage_writer import write_polygons
+from thawslide.map_files import write_polygons, write_raster
 from thawslide.scarps.release import Release
-
-_TILE = 256  # cells
 
 
 def outline_file(path: Path) -> Path:
@@ -49,28 +43,6 @@ def write_release(release: Release, path: Path) -> None:
         "mean_thickness_m": release.mean_thickness,
         "max_thickness_m": release.max_thickness,
     }
-    dem = release.dem
-    rows, columns = dem.heights.shape
-    try:
-        with atomic_file(path) as raster, atomic_file(outline) as polygons:
-            write_polygons(polygons, "release", [release.outline()], [attributes], dem.crs)
-            with rasterio.open(
-                raster,
-                "w",
-                driver="GTiff",
-                dtype="float64",
-                count=1,
-                width=columns,
-                height=rows,
-                transform=dem.transform,
-                crs=dem.crs,
-                compress="deflate",
-                tiled=True,
-                blockxsize=_TILE,
-                blockysize=_TILE,
-            ) as file:
-                file.set_band_description(1, "vertical thickness of the release")
-                file.set_band_unit(1, "m")
-                file.write(release.thickness, 1)
-    except (OSError, sqlite3.Error) as error:
-        raise ReportError(f"{path}: cannot be written ({error}). Select another --output.") from error
+    raster = release.dem.raster
+    write_polygons(outline, "release", [release.outline()], [attributes], raster.crs)
+    write_raster(path, raster, release.thickness[::-1], "m", "vertical thickness of the release")

@@ -15,7 +15,6 @@ from thawslide.contours import Polygon
 from thawslide.errors import ReportError
 from thawslide.number_text import plain_text
 from thawslide.scarps.dem_file import Dem, Mask, read_dem
-from thawslide.scarps.outline_file import cells_within
 from thawslide.scarps.regions import part_with
 from thawslide.scarps.search import JumpError, matching_parameter
 from thawslide.scarps.slbl import SlblSolver
@@ -102,19 +101,20 @@ def scarp(
 ) -> Release:
     """Build a release from a failure surface below a DEM, as `thawslide scarp`, and return it.
 
-    dem: GeoTIFF or ESRI ASCII file, in projected metres. surface: a `Plane`, several planes (the mass above all of
-    them), an `Ellipsoid` or an `Slbl`. within: file of polygons (GeoPackage, GeoJSON or Shapefile) that limit the
-    release; an `Slbl` requires it. Planes without `within` release the part that contains the point of the first plane.
-    volume: volume of the release [m3], which determines the depth of the planes (all are shifted equally), the depth of
-    the ellipsoid or the parameter C of the SLBL; it is reached within 0.1 %. crs: coordinate reference system of a DEM
-    whose file has none, for example "EPSG:31287". Raises ReportError, with the message of the command line, for
-    invalid numbers or files, an outline outside the DEM or with cells without data, no cell of the DEM above the
-    surface, and a volume that cannot be reached.
+    dem: GeoTIFF or ESRI ASCII file, in a map projection in metres. surface: a `Plane`, several planes (the mass above
+    all of them), an `Ellipsoid` or an `Slbl`. within: file of polygons (GeoPackage, GeoJSON, Shapefile or KML) that
+    limit the release; an `Slbl` requires it. Planes without `within` release the part that contains the point of the
+    first plane. volume: volume of the release [m3], which determines the depth of the planes (all are shifted equally),
+    the depth of the ellipsoid or the parameter C of the SLBL; it is reached within 0.1 %. crs: coordinate reference
+    system of the DEM, for example "EPSG:31287", by default that of its file. Notes on the files are in `dem.notes` of
+    the result. Raises ReportError, with the message of the command line, for invalid numbers or files, an outline
+    outside the DEM or with cells without data, no cell of the DEM above the surface, and a volume that cannot be
+    reached.
     """
     terrain = read_dem(Path(dem), crs)
     if volume is not None:
         check_positive("--volume", volume, "m3", DEEPEST * terrain.heights.size * terrain.cell_area)
-    inside = None if within is None else cells_within(Path(within), terrain)
+    inside = None if within is None else terrain.cells_within(Path(within))
     if isinstance(surface, Slbl):
         release = _slbl_release(terrain, surface, inside, volume)
     elif isinstance(surface, Ellipsoid):

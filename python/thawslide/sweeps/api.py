@@ -6,6 +6,7 @@ import contextlib
 import copy
 import hashlib
 import math
+import shutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -188,12 +189,11 @@ def plan_of(
     }
 
 
-def _digest(case: Case, digest: Callable[[str], bytes]) -> str:
+def _digest(case: Case, digest: Callable[[Path], bytes]) -> str:
     """Return a digest of a resolved case and of all its input files; the case files are part of the former."""
     content = hashlib.sha256(case.to_toml().encode())
     for file in case.input_files:
-        if file not in case.case_files:
-            content.update(digest(file))
+        content.update(file.name.encode() + digest(file))
     return content.hexdigest()[:_DIGITS]
 
 

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from thawslide import _core
 from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
 from thawslide.sweeps.raster_files import write_style, write_window, written_raster
@@ -28,10 +29,11 @@ REACHED = 0.1  # m: thickness above which a cell counts as reached, without a ma
 
 @dataclass(frozen=True)
 class Quantity:
-    """A mapped quantity: its file in the folder maps, unit, and the value of cells without data."""
+    """A mapped quantity: its file in the folder maps, kind of its values, unit, and the value of cells without data."""
 
     name: str
     file: str
+    kind: _core.Quantity
     unit: str
     words: str
     missing: float
@@ -41,9 +43,9 @@ class Quantity:
 QUANTITIES = {
     each.name: each
     for each in (
-        Quantity("thickness", "max_thickness", "m", "maximum flow thickness", 0.0, "YlOrRd"),
-        Quantity("speed", "max_speed", "m/s", "maximum speed", 0.0, "viridis"),
-        Quantity("arrival", "arrival_time", "s", "arrival time", math.inf, "cividis"),
+        Quantity("thickness", "max_thickness", _core.Quantity.LENGTH, "m", "maximum flow thickness", 0.0, "YlOrRd"),
+        Quantity("speed", "max_speed", _core.Quantity.SPEED, "m/s", "maximum speed", 0.0, "viridis"),
+        Quantity("arrival", "arrival_time", _core.Quantity.TIME, "s", "arrival time", math.inf, "cividis"),
     )
 }
 DEFAULT_THRESHOLDS = {"thickness": (0.5, 1.0, 5.0), "speed": (1.0, 5.0, 10.0)}
@@ -84,10 +86,12 @@ def write_probability_maps(
     thresholds: Mapping[str, Sequence[float]] | None = None,
     quantiles: Sequence[float] = QUANTILES,
     memory: float = MEMORY,
+    report: Callable[[str], object] = lambda _: None,
 ) -> list[Path]:
     """Write the maps of each quantity (thickness, speed, arrival) from the rasters of all members; return the files.
 
-    `thresholds` are those of exceedance by quantity. ReportError if the cells of the rasters do not coincide.
+    `thresholds` are those of exceedance by quantity. `report` is called with each note on a raster. ReportError if the
+    cells of the rasters do not coincide.
     """
     chosen = {**DEFAULT_THRESHOLDS, **(thresholds or {})}
     written: list[Path] = []
@@ -96,7 +100,10 @@ def write_probability_maps(
         for name, files in rasters.items():
             arrival = arrival_thickness(rasters["arrival"]) if "arrival" in rasters else None
             outputs = _outputs(QUANTITIES[name], chosen.get(name, ()), quantiles, arrival)
-            written += _write(RasterStack(files), QUANTITIES[name], outputs, output, memory)
+            stack = RasterStack(files, QUANTITIES[name].kind)
+            for note in stack.notes:
+                report(note)
+            written += _write(stack, QUANTITIES[name], outputs, output, memory)
     except OSError as error:
         raise ReportError(
             f"{error.filename or output}: cannot be written ({error.strerror or error}). Select another --output."

@@ -22,8 +22,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         output = given.output or _usual_output(given.folder)
         chosen = {name: getattr(given, name) for name in ("thickness", "speed") if getattr(given, name)}
         count = max(map(len, rasters.values()))
-        for path in write_probability_maps(rasters, output, chosen or None, given.quantiles or QUANTILES):
+        notes: list[str] = []
+        quantiles = given.quantiles or QUANTILES
+        for path in write_probability_maps(rasters, output, chosen or None, quantiles, report=notes.append):
             print_line(f"{path}")
+        for note in notes:
+            print_line(f"thawslide probability: {note}", sys.stderr)
         print_line(f"maps of {count} members{_unfinished(given.folder)}", sys.stderr)
     except ReportError as error:
         print_line(f"thawslide probability: error: {error}", sys.stderr)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,11 +10,11 @@ from typing import Any
 
 import numpy as np
 import rasterio
-from rasterio.errors import NotGeoreferencedWarning, RasterioError
-from rasterio.windows import Window
 
+from thawslide import _core
 from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
+from thawslide.map_files import errors_of, open_raster
 
 MEMORY = 256e6  # bytes of one window of all rasters
 _SMALLEST_SIDE, _LARGEST_SIDE = 16, 1024  # cells of a window
@@ -43,10 +42,15 @@ class RasterGrid:
 class RasterStack:
     """Rasters whose cells coincide; their extents may differ, and cells outside an extent have no data."""
 
-    def __init__(self, files: Sequence[Path]) -> None:
-        """Read the grids of all rasters; ReportError if the cells do not coincide."""
-        self.files = list(files)
-        self._grids = [_grid_of(path) for path in self.files]
+    def __init__(self, files: Sequence[Path], quantity: _core.Quantity) -> None:
+        """Read the grids of all rasters of a quantity; ReportError if the cells do not coincide."""
+        self.files, self.quantity = list(files), quantity
+        self.notes: list[str] = []
+        self._grids = []
+        for path in self.files:
+            file, notes = open_raster(path, quantity)
+            self.notes += notes
+            self._grids.append(_grid_of(file.layout))
         first = self._grids[0]
         for path, grid in zip(self.files, self._grids, strict=True):
             _require_coincident(self.files[0], first, path, grid)
@@ -79,40 +83,24 @@ class RasterStack:
             left, right = max(columns.start, column), min(columns.stop, column + grid.columns)
             if top >= bottom or left >= right:
                 continue
-            part = Window(left - column, top - row, right - left, bottom - top)
-            layer[top - rows.start : bottom - rows.start, left - columns.start : right - columns.start] = _values(
-                path, part, missing
+            file, _ = open_raster(path, self.quantity)
+            with errors_of(path):  # rows of the file begin in the south
+                read = file.read(left - column, row + grid.rows - bottom, right - left, bottom - top)
+            part = np.asarray(read)[::-1]
+            layer[top - rows.start : bottom - rows.start, left - columns.start : right - columns.start] = np.where(
+                np.isnan(part), missing, part
             )
         return values
 
 
-def _values(path: Path, part: Window, missing: float) -> Numbers:
-    try:
-        with rasterio.open(path) as file:
-            band = file.read(1, window=part, masked=True, out_dtype="float64")
-    except (RasterioError, OSError, ValueError, MemoryError) as error:
-        raise ReportError(f"{path}: cannot be read as a raster ({error}). Remove it, or repeat its run.") from error
-    values = np.ma.filled(band, missing)
-    return np.where(np.isnan(values), missing, values)
-
-
-def _grid_of(path: Path) -> RasterGrid:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", NotGeoreferencedWarning)
-            with rasterio.open(path) as file:
-                transform, crs = file.transform, file.crs.to_wkt() if file.crs else ""
-                columns, rows = file.width, file.height
-    except (RasterioError, OSError) as error:
-        raise ReportError(f"{path}: cannot be read as a raster ({error}). Remove it, or repeat its run.") from error
-    if transform.b != 0.0 or transform.d != 0.0 or transform.a <= 0.0 or transform.e >= 0.0:
-        raise ReportError(f"{path}: not aligned with north, or without coordinates. Reproject the raster.")
-    return RasterGrid(transform.c, transform.f, transform.a, -transform.e, columns, rows, crs)
+def _grid_of(layout: _core.Raster) -> RasterGrid:
+    west, north = layout.x - 0.5 * layout.cell_x, layout.y + (layout.rows - 0.5) * layout.cell_y
+    return RasterGrid(west, north, layout.cell_x, layout.cell_y, layout.columns, layout.rows, layout.crs)
 
 
 def _require_coincident(first_path: Path, first: RasterGrid, path: Path, grid: RasterGrid) -> None:
     """Raise ReportError unless the cells of two rasters coincide."""
-    if first.crs != grid.crs:
+    if not _core.is_same_system(first.crs, grid.crs):
         raise ReportError(f"{path}: its coordinate reference system differs from that of {first_path}. Reproject it.")
     most = max(first.columns, first.rows, grid.columns, grid.rows)
     sizes = max(abs(grid.cell_x / first.cell_x - 1.0), abs(grid.cell_y / first.cell_y - 1.0))

@@ -3,7 +3,7 @@
 
 #include "case_messages.hpp"
 #include "config/describe.hpp"
-#include "config/input_files.hpp"
+#include "config/named_files.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -125,10 +125,9 @@ TEST_F(Maps, IceContentReplacesThePorosity) {
   EXPECT_EQ(resolved_toml(found, "inputs").find("\nporosity ="), std::string::npos) << "it follows";
 }
 
-// A run copies the files listed by input_files, and its case.toml names the copies.
+// A run copies the files listed by named_files, and its case.toml names the copies.
 TEST_F(Maps, AreCopiedWithTheRun) {
-  for (const char* name : {"dem.tif.aux.xml", "dem.tfw", "release.shp", "release.shx", "release.dbf", "release.prj",
-                           "release.CPG", "release.sbn", "before.asc", "before.prj", "water.tif", "section.geojson"}) {
+  for (const char* name : {"release.shp", "before.asc", "water.tif", "section.geojson"}) {
     write_next_to_the_case(name, "");
   }
   const Case found =
@@ -139,13 +138,13 @@ TEST_F(Maps, AreCopiedWithTheRun) {
              "thickness = { attribute = \"map.tif\" }\ntemperature = { raster = \"map.tif\" }\n"
              "[maps]\npath = \"line.geojson\"\n[probe.section]\nline = \"section.geojson\"\n[basal]"}});
   std::set<std::string> names;
-  for (const fs::path& file : input_files(found)) {
+  for (const auto& [key, file, is_map] : named_files(found)) {
+    EXPECT_EQ(is_map, file.filename() != "case.toml") << file;
     EXPECT_EQ(file.parent_path(), folder_of_this_test());
     EXPECT_TRUE(names.insert(file.filename().string()).second) << file << " is listed once";
   }
-  EXPECT_EQ(names, (std::set<std::string>{"case.toml", "dem.tif", "dem.tif.aux.xml", "dem.tfw", "release.shp",
-                                          "release.shx", "release.dbf", "release.prj", "release.CPG", "before.asc",
-                                          "before.prj", "water.tif", "map.tif", "line.geojson", "section.geojson"}));
+  EXPECT_EQ(names, (std::set<std::string>{"case.toml", "dem.tif", "release.shp", "before.asc", "water.tif", "map.tif",
+                                          "line.geojson", "section.geojson"}));
   const fs::path run = folder_of_this_test() / "run";
   for (const std::string& name : names) {
     write_next_to_the_case("run/inputs/" + name, "");
@@ -156,7 +155,7 @@ TEST_F(Maps, AreCopiedWithTheRun) {
   EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
   EXPECT_EQ(again.bodies.at("slide").release, (run / "inputs" / "release.shp").string());
   EXPECT_EQ(again.bodies.at("other").thickness.source, "map.tif") << "an attribute is not a file";
-  for (const fs::path& file : input_files(again)) {
+  for (const auto& [key, file, is_map] : named_files(again)) {
     EXPECT_TRUE(file == run / "case.toml" || file.parent_path() == run / "inputs") << file;
   }
 }

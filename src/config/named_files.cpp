@@ -1,7 +1,6 @@
-#include "config/input_files.hpp"
+#include "config/named_files.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <utility>
 
@@ -11,31 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string in_capitals(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
-  return text;
-}
-
-// Existing companion files of a map.
-std::vector<fs::path> companions(const fs::path& map) {
-  std::vector<fs::path> result{map.string() + ".aux.xml", map.string() + ".msk"};
-  for (const std::string ending : {".shx", ".dbf", ".prj", ".cpg", ".tfw"}) {
-    result.push_back(fs::path(map).replace_extension(ending));
-    result.push_back(fs::path(map).replace_extension(in_capitals(ending)));
-  }
-  result.erase(
-      std::remove_if(result.begin(), result.end(), [](const fs::path& file) { return !fs::is_regular_file(file); }),
-      result.end());
-  return result;
-}
-
-// DEM, and map files of bodies, maps and probes; may contain empty names.
+// Map files of bodies, maps and probes; may contain empty names.
 std::vector<InputFile> map_files(const Case& parameters) {
   std::vector<InputFile> files{{"maps.path", parameters.maps.path}};
-  if (parameters.terrain.kind == TerrainKind::dem) {
-    files.push_back({"terrain.file", parameters.terrain.file});
-  }
   for (const auto& [name, body] : parameters.bodies) {
     const std::string table = "body." + name + ".";
     files.push_back({table + "release", body.release});
@@ -66,35 +43,22 @@ std::vector<InputFile> map_files(const Case& parameters) {
 
 }  // namespace
 
-std::vector<InputFile> input_files_by_key(const Case& parameters) {
+std::vector<InputFile> named_files(const Case& parameters) {
   std::vector<InputFile> files;
-  const auto add = [&files](const std::string& key, const fs::path& file) {
+  const auto add = [&files](const std::string& key, const fs::path& file, bool is_map) {
     const auto is_it = [&file](const InputFile& other) { return other.file == file; };
     if (!file.empty() && std::none_of(files.begin(), files.end(), is_it)) {
-      files.push_back({key, file});
+      files.push_back({key, file, is_map});
     }
   };
   for (const CaseFile& each : parameters.case_files) {
-    add(files.empty() ? "" : "case.based_on", each.file);
+    add(files.empty() ? "" : "case.based_on", each.file, false);
   }
-  add("terrain.file", parameters.terrain.file);
-  add("report.targets", parameters.report.targets);
-  add("report.force_record", parameters.report.force_record);
+  add("terrain.file", parameters.terrain.file, parameters.terrain.kind == TerrainKind::dem);
+  add("report.targets", parameters.report.targets, false);
+  add("report.force_record", parameters.report.force_record, false);
   for (const InputFile& map : map_files(parameters)) {
-    add(map.key, map.file);
-    if (!map.file.empty()) {
-      for (const fs::path& companion : companions(map.file)) {
-        add(map.key, companion);
-      }
-    }
-  }
-  return files;
-}
-
-std::vector<fs::path> input_files(const Case& parameters) {
-  std::vector<fs::path> files;
-  for (InputFile& input : input_files_by_key(parameters)) {
-    files.push_back(std::move(input.file));
+    add(map.key, map.file, true);
   }
   return files;
 }

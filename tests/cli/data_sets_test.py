@@ -1,0 +1,165 @@
+"""An input is a set of files: cases, runs, continued runs and digests of sweeps have all of them, and change none."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import odd_files as odd
+import pytest
+import rasterio
+from conftest import Program, mark_killed, sets
+
+from thawslide.case import Case
+from thawslide.sweeps.api import _digest
+from thawslide.sweeps.design import Member
+
+Write = Callable[[Path], Path]
+
+
+def with_encoding(file: Path) -> Path:
+    """Write a Shapefile whose encoding is in a file of its own."""
+    odd.shapefile(file, [[odd.ring(odd.SQUARE)], [odd.ring(odd.HOLE)]], name="Südflanke".encode("cp850"))
+    file.with_suffix(".cpg").write_text("CP850")
+    return file
+
+
+def with_other_case(file: Path) -> Path:
+    """Write a Shapefile whose parts have suffixes in the other case than the first file."""
+    return odd.shapefile(file.with_suffix(".SHP"), [[odd.ring(odd.SQUARE)]])
+
+
+def with_mask_file(file: Path) -> Path:
+    """Write a thickness with wrong values in a corner, which a mask in a file of its own excludes."""
+    values = odd.thickness()
+    values[:5, -5:] = 77.0
+    odd.raster(file, values)
+    with rasterio.Env(GDAL_TIFF_INTERNAL_MASK=False), rasterio.open(file, "r+") as opened:
+        opened.write_mask(values != 77.0)
+    assert file.with_name(file.name + ".msk").is_file()
+    return file
+
+
+def with_statement(file: Path) -> Path:
+    """Write a thickness in centimetres as an ASCII grid, whose unit and system are in files of their own."""
+    odd.raster(file.with_name("plain.tif"), 100.0 * odd.thickness())
+    with rasterio.open(file.with_name("plain.tif")) as opened:
+        profile = {key: opened.profile[key] for key in ("width", "height", "count", "transform", "crs")}
+        with rasterio.open(file, "w", driver="AAIGrid", dtype="float64", **profile) as other:
+            other.write(opened.read(1), 1)
+    file.with_name("plain.tif").unlink()
+    unit = '<PAMRasterBand band="1"><UnitType>cm</UnitType></PAMRasterBand>'
+    file.with_name(file.name + ".aux.xml").write_text(f"<PAMDataset>{unit}</PAMDataset>")
+    return file
+
+
+# Releases by name, with the number of their files.
+SETS: dict[str, tuple[Write, int]] = {
+    "open.gpkg": (odd.open_elsewhere, 2),
+    "encoded.shp": (with_encoding, 5),
+    "capital.shp": (with_other_case, 4),
+    "world.tif": (lambda file: odd.world_file(file, odd.thickness()), 2),
+    "masked.tif": (with_mask_file, 2),
+    "stated.asc": (with_statement, 3),
+}
+
+
+@pytest.fixture(params=SETS)
+def given(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    (tmp_path / "given").mkdir()
+    write, count = SETS[request.param]
+    file = write(tmp_path / "given" / request.param)
+    assert len(list(file.parent.iterdir())) == count
+    return file
+
+
+def volume(thawslide: Program, case: Path, *words: object) -> float:
+    return float(thawslide.json("check", case, *words)["bodies"][0]["volume_m3"])
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.fixture
+def case(thawslide: Program, tmp_path: Path, given: Path) -> Path:
+    """Return a case made of the release, whose original files no longer exist."""
+    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
+    words = [] if given.suffix in (".tif", ".asc") else ["--thickness", odd.THICK]
+    before = contents(given.parent)
+    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", given, *words)
+    assert contents(given.parent) == before
+    return tmp_path / "slide"
+
+
+def test_copies_are_complete_and_unchanged(thawslide: Program, case: Path, given: Path, tmp_path: Path) -> None:
+    original = contents(given.parent)
+    shutil.rmtree(given.parent)
+    assert volume(thawslide, case) == pytest.approx(odd.FULL, rel=1e-6)
+    assert original.items() <= contents(case).items()
+    run = tmp_path / "run"
+    thawslide.ok("run", case, "--output", run, *sets(time__end=0.02, grid__cell=20.0))
+    shutil.rmtree(case)
+    assert original.items() <= contents(run / "inputs").items()
+    for end in (0.03, 0.04):
+        thawslide.ok("resume", run, "--end", end)
+    with rasterio.open(run / "maps" / "release.tif") as file:
+        assert file.read(1, masked=True).sum() * odd.CELL**2 == pytest.approx(odd.FULL, rel=1e-3)
+    assert original.items() <= contents(run / "inputs").items()
+
+
+def test_digest_of_a_sweep_depends_on_every_file(case: Path, given: Path) -> None:
+    member = Member(0, str(case / "case.toml"), {})
+    assert {path.name for path in Case(case).input_files} == {"dem.tif", *(contents(given.parent))}
+    before = _digest(member)
+    assert _digest(member) == before
+    for name in contents(given.parent):
+        content = (case / name).read_bytes()
+        is_text = name.endswith(("prj", "cpg", "xml", "tfw", "asc"))
+        (case / name).write_bytes(content + (b" " if is_text else b"\0"))  # which changes no meaning
+        assert _digest(member) != before, name
+        (case / name).write_bytes(content)
+
+
+def test_file_added_to_an_input_of_a_run_is_refused(thawslide: Program, tmp_path: Path) -> None:
+    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
+    release = odd.shapefile(tmp_path / "release.shp", [[odd.ring(odd.SQUARE)]])
+    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    run = tmp_path / "run"
+    thawslide.ok("run", tmp_path / "slide", "--output", run, *sets(time__end=0.02, grid__cell=20.0))
+    mark_killed(run)
+    (run / "inputs" / "release.cpg").write_text("UTF-8")
+    added = f"{run / 'inputs' / 'release.cpg'} was added and must be removed. A run continues with the inputs of its"
+    assert added in thawslide.error("resume", run)
+
+
+def test_files_of_one_name_are_refused(thawslide: Program, tmp_path: Path) -> None:
+    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+    release = odd.shapefile(tmp_path / "a" / "area.shp", [[odd.ring(odd.SQUARE)]])
+    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    thick = odd.raster(tmp_path / "b" / "area.tif", odd.thickness())
+    thawslide.ok("check", tmp_path / "slide", "--set", f'body.slide.thickness={{ raster = "{thick}" }}')
+    grid = with_statement(tmp_path / "b" / "area.asc")
+    words = ["--set", f"body.slide.release={release}", "--set", f'body.slide.thickness={{ raster = "{grid}" }}']
+    message = thawslide.error("run", tmp_path / "slide", "--output", tmp_path / "run", *words)
+    names = f"{release.with_suffix('.prj')} and {grid.with_suffix('.prj')}"
+    assert f"{names} have the same name; allowed: names of their own" in message
+
+
+def test_edits_of_an_open_geopackage_stay_where_they_are(thawslide: Program, tmp_path: Path) -> None:
+    """Also the copies in temporary folders are removed."""
+    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
+    (tmp_path / "given").mkdir()
+    (tmp_path / "temporary").mkdir()
+    release = odd.open_elsewhere(tmp_path / "given" / "open.gpkg")
+    before = contents(release.parent)
+    environment = thawslide.environment | {"TMPDIR": str(tmp_path / "temporary")}
+    words = ["new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK]
+    outcome = thawslide(*words, environment=environment)
+    assert "a release of 400,000 m3" in outcome.stdout
+    assert contents(release.parent) == before and list((tmp_path / "temporary").iterdir()) == []
+    words[1] = tmp_path / "other"
+    absent = thawslide(*words, environment=environment | {"TMPDIR": str(tmp_path / "no")})
+    assert absent.returncode == 2 and "it cannot be copied to read its latest edits" in absent.stderr
+    assert volume(thawslide, tmp_path / "slide") == pytest.approx(odd.FULL, rel=1e-6)
