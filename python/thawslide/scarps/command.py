@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print_line(f"thawslide scarp: error: {error}", sys.stderr)
         return 2
     for note in release.dem.notes:
-        print(printable(f"thawslide scarp: {note}"), file=sys.stderr)
+        print_line(f"thawslide scarp: {note}", sys.stderr)
     for line in _lines(release, given):
         print_line(line)
     if release.parts > 1:
