@@ -76,7 +76,8 @@ std::vector<Parameter<Time>> time_parameters() {
                  .unit = "m",
                  .range = at_least(0),
                  .text = "distance beyond which mass has moved: only such mass counts for front, runout, travel "
-                         "distance and rest; all mass while there is none. Set it below the size of small slides"}),
+                         "distance and rest; all mass while no more than 0.5 % of it has moved that far. Set it "
+                         "below the size of small slides"}),
   };
 }
 

@@ -1,5 +1,5 @@
-// Front of the sliding mass: travel distance exceeded by only the foremost 0.5 % of the mass that has moved. For host
-// and device.
+// Front of the sliding mass: travel distance exceeded by only the foremost 0.5 % of the mass of bodies that have moved.
+// For host and device.
 #pragma once
 
 #include <array>
@@ -71,20 +71,21 @@ struct Transformation {
   }
 };
 
-// Search from the foremost particle backwards, in a body of a given mass [kg].
+// Fraction of the mass ahead of the front.
+inline constexpr double fraction_ahead_of_front = 0.005;
+
+// Search from the foremost particle backwards, in bodies of a given mass [kg].
 class FrontSearch {
  public:
   explicit FrontSearch(double mass) : mass_(mass) {}
 
-  // True if the front is at the next particle: the mass behind it is below `fraction` of the whole.
+  // True if the front is at the next particle: the mass behind it is too little.
   [[nodiscard]] bool is_at(double mass_of_next) {
     ahead_ += mass_of_next;
-    return mass_ - ahead_ < fraction * mass_;
+    return mass_ - ahead_ < (1.0 - fraction_ahead_of_front) * mass_;
   }
 
  private:
-  static constexpr double fraction = 0.995;
-
   double mass_, ahead_ = 0.0;
 };
 

@@ -11,9 +11,16 @@ namespace thawslide::sim {
 template <int Dim>
 MovedMass Simulation<Dim>::moved_mass() const {
   const BodySums<Dim> sums = sum_over_body();
-  return sums.moved_mass > Real(0) ? MovedMass{static_cast<Real>(parameters_.time.moved_distance),
-                                               static_cast<double>(sums.moved_mass), sums.moved_bodies}
-                                   : MovedMass{Real(-1), static_cast<double>(sums.mass), {}};
+  const auto all = static_cast<double>(sums.mass);
+  double of_moved_bodies = all;
+  for (std::size_t body = 0; body < bodies_at_start_.size(); ++body) {
+    of_moved_bodies -= sums.moved_bodies.contains(body) ? 0.0 : bodies_at_start_[body].mass;
+  }
+  if (static_cast<double>(sums.moved_mass) > mpm::fraction_ahead_of_front * of_moved_bodies &&
+      sums.moved_mass > Real(0)) {
+    return {static_cast<Real>(parameters_.time.moved_distance), of_moved_bodies, sums.moved_bodies};
+  }
+  return {Real(-1), all, {}};
 }
 
 template <int Dim>

@@ -20,7 +20,7 @@ struct MassOnPath {
   }
 };
 
-// Particle that has 99.5 % of the mass [kg] behind it; mass: of all `masses`. Reorders `masses`, which must not be
+// Particle that has 99.5 % of a mass [kg] behind it. Reorders `masses`, which must not be
 // empty.
 [[nodiscard]] inline MassOnPath front_of(std::vector<MassOnPath>& masses, double mass) {
   THAWSLIDE_ASSERT(!masses.empty(), "the front of {} particles", masses.size());

@@ -8,11 +8,11 @@
 
 namespace thawslide::sim {
 
-// Mass that has moved by more than time.moved_distance; all mass while there is none.
+// Mass that has moved by more than time.moved_distance; all mass while that is no more than 0.5 %.
 struct MovedMass {
   Real distance = -1;   // [m]; negative: all mass
-  double mass = 0.0;    // [kg]
-  mpm::BodySet bodies;  // with such mass
+  double mass = 0.0;    // of `bodies`, whether it has moved or not [kg]
+  mpm::BodySet bodies;  // with mass that has moved
 
   [[nodiscard]] bool has(std::size_t body) const { return distance < Real(0) || bodies.contains(body); }
 };

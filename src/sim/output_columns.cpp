@@ -13,7 +13,7 @@ const std::vector<ColumnGroup>& history_columns() {
         {"max_velocity_m_s", "m/s", "speed of the fastest particle"},
         {"mean_displacement_m", "m", "mass-weighted mean of the path lengths of the particles"},
         {"front_position_m", "m",
-         "x behind which 99.5 % of the mass that has moved is located; in 3D the distance along the path"},
+         "x behind which 99.5 % of the mass of bodies that have moved is located; in 3D the distance along the path"},
         {"runout_m", "m",
          "distance from the rear of the bodies that have moved, at t = 0, to the front; in 3D along the path"},
         {"mean_plastic_strain", "1", "mass-weighted mean of the equivalent plastic strain"},

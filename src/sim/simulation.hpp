@@ -140,7 +140,7 @@ class Simulation {
   // Sums over all particles, in host or device memory, or over marked ones, by particle.
   [[nodiscard]] BodySums<Dim> sum_over_body() const;
   [[nodiscard]] BodySums<Dim> sum_over_marked(const std::vector<std::uint8_t>& marked) const;
-  // Mass that has moved by more than time.moved_distance; all mass while there is none.
+  // Mass that counts for front, runout and travel distance.
   [[nodiscard]] MovedMass moved_mass() const;
   // Particle at the front of a mass along a line, or along the x axis if the line has no segments. At least one
   // particle must exist.

@@ -161,7 +161,7 @@ several mistakes at once
   --set time.end=-1 --set body.block.porosity=2 --set time.stp=1
     --set time.end=-1: time.end is -1; allowed: > 0 s (simulated time at which the run ends).
     --set time.stp=1: key 'time.stp' is not known in [time]; did you mean 'step'? Allowed here: end, stepping, step,
-    safety, output_interval, history_interval, stop_at_rest, rest_time.
+    safety, output_interval, history_interval, stop_at_rest, rest_time, moved_distance.
     --set body.block.porosity=2: body.block.porosity is 2; allowed: > 0 and <= 0.95 (porosity n at t = 0: volume
     fraction of ice and water); if it is in percent, it is 0.02. Correct it, or leave it out for the default 0.375.
 

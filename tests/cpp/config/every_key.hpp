@@ -14,7 +14,7 @@ using case_messages::one_key_per_line;
 inline const std::string every_key = one_key_per_line(R"(
 [case] title = "Every \"key\"" | width = 12.5 | gravity = 9.75 | gravity_tilt = -1.5
 [time] end = 4.5 | stepping = "adaptive" | step = 0.25 | safety = 0.5 | output_interval = 1.5 |
-  history_interval = 0.125 | stop_at_rest = 0.0625 | rest_time = 5.0
+  history_interval = 0.125 | stop_at_rest = 0.0625 | rest_time = 5.0 | moved_distance = 0.5
 [grid] cell = 2.5 | min = [-5.0, -10.0] | max = [95.0, 40.0] | leaving = "remove"
 [grid.boundary] x_min = "fixed" | x_max = "roller" | y_min = "roller" | y_max = "fixed"
 [guards] not_finite = "remove" | volume = "remove" | smallest_volume = 0.125 | largest_volume = 20.0 |
