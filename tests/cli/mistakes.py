@@ -101,8 +101,9 @@ a body below the ground
 
 a step too long
   step = 0.001 -> step = 0.01
-    6:8: time.step is 0.01 s, above the limit of 0.00444 s set by the elastic wave of material 'rock' (225 m/s) on cells
-    of 1 m, with a Young's modulus of 1e+08 Pa and 2,200 kg/m3. Use a smaller time.step, or time.stepping = "adaptive".
+    6:8: time.step is 0.01 s, above the limit of 0.00442 s set by the elastic wave of material 'rock' (225 m/s,
+    viscosity 4.97e-05 s) on cells of 1 m, with a Young's modulus of 1e+08 Pa and 2,200 kg/m3. Use a smaller time.step,
+    or time.stepping = "adaptive".
 
 a file that does not exist
   type = "flat"|elevation = 0.0 -> type = "profile"|file = "profil.csv"

@@ -150,7 +150,7 @@ def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: 
         with rasterio.open(tmp_path / name / "maps" / "release.tif") as file:
             assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(VOLUME, rel=1e-9), name
     assert speeds["ramps"] > 0.6 * speeds["top"]
-    assert speeds["walls"] < 0.4 * speeds["top"]
+    assert speeds["walls"] < 0.45 * speeds["top"]
 
 
 def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(ran: Ran, tmp_path: Path, slope: Slope) -> None:
