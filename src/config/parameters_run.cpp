@@ -76,8 +76,7 @@ std::vector<Parameter<Time>> time_parameters() {
                  .unit = "m",
                  .range = at_least(0),
                  .text = "distance beyond which mass has moved: only such mass counts for front, runout, travel "
-                         "distance and rest; all mass while no more than 0.5 % of it has moved that far. Set it "
-                         "below the size of small slides"}),
+                         "distance and rest. All mass counts while no more than 0.5 % has moved that far"}),
   };
 }
 

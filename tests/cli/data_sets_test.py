@@ -11,7 +11,6 @@ from conftest import Program, mark_killed, sets
 
 from thawslide.case import Case
 from thawslide.sweeps.api import _digest
-from thawslide.sweeps.design import Member
 
 Write = Callable[[Path], Path]
 
@@ -108,15 +107,17 @@ def test_copies_are_complete_and_unchanged(thawslide: Program, case: Path, given
 
 
 def test_digest_of_a_sweep_depends_on_every_file(case: Path, given: Path) -> None:
-    member = Member(0, str(case / "case.toml"), {})
+    def digest() -> str:
+        return _digest(Case(case), Path.read_bytes)
+
     assert {path.name for path in Case(case).input_files} == {"dem.tif", *(contents(given.parent))}
-    before = _digest(member)
-    assert _digest(member) == before
+    before = digest()
+    assert digest() == before
     for name in contents(given.parent):
         content = (case / name).read_bytes()
         is_text = name.endswith(("prj", "cpg", "xml", "tfw", "asc"))
         (case / name).write_bytes(content + (b" " if is_text else b"\0"))  # which changes no meaning
-        assert _digest(member) != before, name
+        assert digest() != before, name
         (case / name).write_bytes(content)
 
 

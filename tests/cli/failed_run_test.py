@@ -83,7 +83,10 @@ def test_a_step_too_long_for_the_load_is_named_as_cause(thawslide: Program, smal
     ("more", "advice"),
     [
         ({"mechanics__transfer": "blend", "mechanics__pic_fraction": 0.001}, "or a larger mechanics.pic_fraction."),
-        ({"material__rock__viscosity_time": 1e-5}, "a larger viscosity_time in the material, or mechanics.transfer"),
+        (
+            {"material__rock__viscosity_time": 1e-5},
+            "viscosity_number or viscosity_time of the material, or mechanics.transfer",
+        ),
         ({"time__stepping": "adaptive", "time__safety": 0.9}, "Try half of time.safety, "),
     ],
 )

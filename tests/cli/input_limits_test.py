@@ -175,7 +175,7 @@ def test_a_raster_of_too_many_points_is_refused(slope: Slope, tmp_path: Path) ->
         file.write(f"ncols 30000\nnrows 30000\nxllcorner {WEST}\nyllcorner {SOUTH}\ncellsize 1\nNODATA_value -9999\n")
         file.write(" ".join(["1"] * 1000) + "\n")
         file.truncate(2 * 30000**2)  # long enough for so many values; a sparse file needs no disk space
-    message = slope.error("--crs", "EPSG:31287", dem=dem)
+    message = slope.error("--crs", "EPSG:32631", dem=dem)
     assert "30,000 x 30,000 points of it are needed; allowed: 400,000,000 points. Crop it" in message
 
 

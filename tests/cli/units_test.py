@@ -93,7 +93,8 @@ VALUES: dict[str, tuple[float, str, dict[str, object]]] = {
 # Not tested: lengths and coordinates, because a flume and a mountain have any; times of output, any; those that need a
 # DEM, a bed, bodies in contact or a section of some width, and have ranges of the same form.
 NOT_TESTED = {
-    "case.width", "time.end", "time.output_interval", "time.history_interval", "time.rest_time", "grid.cell",
+    "case.width", "time.end", "time.output_interval", "time.history_interval", "time.rest_time",
+    "time.moved_distance", "grid.cell",
     "grid.min",
     "grid.max", "terrain.elevation", "terrain.resample", "terrain.smooth", "checkpoint.interval", "maps.cell",
     "maps.arrival_thickness", "probe.NAME.point", "report.times", "report.force_periods", "freezing.slope",
