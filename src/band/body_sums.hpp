@@ -79,7 +79,7 @@ struct SumsOfParticle {
       sums.kinetic += Real(0.5) * mass * velocity * velocity;
       sums.potential -= mass * gravity[a] * (particles.position(p, a) + origin[a]);
     }
-    if (mpm::has_moved<Dim>(particles, p, moved_distance)) {
+    if (particles.path_length(p) > moved_distance) {
       sums.moved_mass = mass;
       sums.moved_bodies.add(static_cast<std::size_t>(particles.body(p)));
     }

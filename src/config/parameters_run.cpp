@@ -75,8 +75,8 @@ std::vector<Parameter<Time>> time_parameters() {
                 {.key = "moved_distance",
                  .unit = "m",
                  .range = at_least(0),
-                 .text = "distance beyond which mass has moved: only such mass counts for front, runout, travel "
-                         "distance and rest. All mass counts while no more than 0.5 % has moved that far"}),
+                 .text = "travel distance beyond which a body has moved: only such bodies count for front, runout, "
+                         "travel distance and rest. All count while no more than 0.5 % has moved that far"}),
   };
 }
 

@@ -10,23 +10,14 @@
 
 namespace thawslide::mpm {
 
-// Mass that counts for front, runout and travel distance: that which has moved farther than a distance [m] since t = 0
-// or joining; all of it for a negative distance.
-template <int Dim, class Particles>
-[[nodiscard]] THAWSLIDE_HD bool has_moved(const Particles& particles, std::uint32_t p, Real distance) {
-  Real way2 = 0;
-  for (int a = 0; a < Dim; ++a) {
-    way2 += particles.displacement(p, a) * particles.displacement(p, a);
-  }
-  return distance < Real(0) || way2 > distance * distance;
-}
-
 // Set of bodies by number; those from the 256th on are in it together.
 struct BodySet {
   std::array<std::uint64_t, 4> words{};
 
   THAWSLIDE_HD void add(std::size_t body) { words[place(body) / 64] |= bit(body); }
-  [[nodiscard]] bool contains(std::size_t body) const { return (words[place(body) / 64] & bit(body)) != 0; }
+  [[nodiscard]] THAWSLIDE_HD bool contains(std::size_t body) const {
+    return (words[place(body) / 64] & bit(body)) != 0;
+  }
   THAWSLIDE_HD BodySet& operator|=(const BodySet& other) {
     for (std::size_t k = 0; k < words.size(); ++k) {
       words[k] |= other.words[k];
@@ -51,13 +42,14 @@ struct PathSample {
 template <int Dim>
 struct Transformation {
   LineView line;
-  Point2 origin{};           // of positions [m]
-  Real moved_distance = -1;  // of the mass that counts [m]; the rest has no mass here, and is behind all
+  Point2 origin{};  // of positions [m]
+  bool all = true;  // all bodies count; otherwise only those of a set: others have no mass here, and are behind all
+  BodySet bodies{};
 
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD PathSample of(const Particles& particles, std::uint32_t p) const {
     PathSample found;
-    if (!has_moved<Dim>(particles, p, moved_distance)) {
+    if (!all && !bodies.contains(static_cast<std::size_t>(particles.body(p)))) {
       found.along = -HUGE_VAL;
       return found;
     }

@@ -18,15 +18,15 @@ MovedMass Simulation<Dim>::moved_mass() const {
   }
   if (static_cast<double>(sums.moved_mass) > mpm::fraction_ahead_of_front * of_moved_bodies &&
       sums.moved_mass > Real(0)) {
-    return {static_cast<Real>(parameters_.time.moved_distance), of_moved_bodies, sums.moved_bodies};
+    return {false, of_moved_bodies, sums.moved_bodies};
   }
-  return {Real(-1), all, {}};
+  return {true, all, {}};
 }
 
 template <int Dim>
 mpm::PathSample Simulation<Dim>::front(const MovedMass& mass, const LineView& line) const {
   THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());
-  mpm::Transformation<Dim> path{line, {}, mass.distance};
+  mpm::Transformation<Dim> path{line, {}, mass.all, mass.bodies};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     path.origin[a] = model_.origin[static_cast<int>(a)];
   }

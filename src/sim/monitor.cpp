@@ -215,7 +215,7 @@ std::string Simulation<Dim>::energy_warning() const {
 
 template <int Dim>
 std::string Simulation<Dim>::rest_text() const {
-  if (moved_mass().distance < Real(0)) {
+  if (moved_mass().all) {
     return fmt::format("{}: no part of it by more than {:g} m (time.moved_distance)", not_moved,
                        parameters_.time.moved_distance);
   }

@@ -8,13 +8,14 @@
 
 namespace thawslide::sim {
 
-// Mass that has moved by more than time.moved_distance; all mass while that is no more than 0.5 %.
+// Bodies of which a part has moved by more than time.moved_distance; all bodies while no more than 0.5 % of their mass
+// has moved that far.
 struct MovedMass {
-  Real distance = -1;   // [m]; negative: all mass
-  double mass = 0.0;    // of `bodies`, whether it has moved or not [kg]
-  mpm::BodySet bodies;  // with mass that has moved
+  bool all = true;
+  double mass = 0.0;  // of the bodies [kg]
+  mpm::BodySet bodies{};
 
-  [[nodiscard]] bool has(std::size_t body) const { return distance < Real(0) || bodies.contains(body); }
+  [[nodiscard]] bool has(std::size_t body) const { return all || bodies.contains(body); }
 };
 
 // Body at t = 0 along the x axis [m].

@@ -49,9 +49,9 @@ IN_ANOTHER_UNIT = "Is the thickness in the wrong unit? Metres are needed."
 A_DEM = "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness."
 SWAPPED = """--dem: release.geojson is not a raster, and dem.tif is one: the DEM and the release are swapped. Give
     --dem dem.tif --release release.geojson.\n"""
-MERCATOR = """{} lengths in the map projection EPSG:3857 are 1.34 to 1.35, by direction, times those on the ground
-    at the corner 411995, 5160595; allowed: a projection that preserves lengths to within 5 %. Reproject: gdalwarp -t_srs EPSG:32631 -tr 7.4
-    7.4 -r bilinear dem.tif dem-EPSG32631.tif\n"""
+MERCATOR = """{} lengths in the map projection EPSG:3857 are 1.34 to 1.35, by direction, times those on the ground at
+    the corner 411995, 5160595; allowed: a projection that preserves lengths to within 5 %. Reproject: gdalwarp -t_srs
+    EPSG:32631 -tr 7.4 7.4 -r bilinear dem.tif dem-EPSG32631.tif\n"""
 RASTER = """--thickness: thick.tif is a raster, whose values are the thickness in metres; leave --thickness out, or give
     polygons to --release.\n"""
 NO_CRS = """--dem: bare.tif: the file names no coordinate reference system (x from 411995 to 412895, y from 5159995 to
