@@ -47,7 +47,7 @@ class Front {
   // canonical order is further ahead.
   mpm::PathSample find(const mpm::Transformation<Dim>& path, double mass, const TileTables<Dim>& tables,
                        const mpm::ParticleView<Dim>& particles, std::size_t count) {
-    const mpm::Transformation<Dim> here{copied(path.line), path.origin};
+    const mpm::Transformation<Dim> here{copied(path.line), path.origin, path.all, path.bodies};
     keys_.resize(count);
     sorted_keys_.resize(count);
     sorted_.resize(count);
