@@ -11,7 +11,6 @@
 
 #include "base/aligned.hpp"
 #include "base/error.hpp"
-#include "base/waiting_threads.hpp"
 
 namespace thawslide {
 

@@ -15,6 +15,10 @@ namespace thawslide {
 [[nodiscard]] int thread_count();
 void set_thread_count(int threads);
 
+// Ends the threads that wait for the calling thread's next loop, which starts others. A forked process has no copies of
+// them, and its first loop would wait for them for ever.
+void end_waiting_threads();
+
 // Restricts the loops below to the calling thread during its lifetime: for many loops too short to run in parallel.
 class SingleThreadScope {
  public:

@@ -18,7 +18,6 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/waiting_threads.hpp"
 #include "config/describe.hpp"
 #include "config/overrides.hpp"
 #include "config/read_case.hpp"

@@ -216,8 +216,8 @@ std::string Simulation<Dim>::energy_warning() const {
 template <int Dim>
 std::string Simulation<Dim>::rest_text() const {
   if (moved_mass().all) {
-    return fmt::format("{}: no part of it by more than {:g} m (time.moved_distance)", not_moved,
-                       parameters_.time.moved_distance);
+    return fmt::format("{}: no more than {:g} % of its mass has travelled {:g} m (time.moved_distance)", not_moved,
+                       100.0 * mpm::fraction_ahead_of_front, parameters_.time.moved_distance);
   }
   return fmt::format(
       "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",

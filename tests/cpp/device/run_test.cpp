@@ -269,6 +269,20 @@ TEST(DeviceRun, RecordsTheMapsOfTheCpu) {
   }
 }
 
+TEST(DeviceRun, FindsTheFrontOfOneOfTwoBodies) {
+  const config::Case parameters = sliding_bodies<3>();
+  Simulation<3> on_cpu(parameters), on_device(parameters);
+  int copies = 0;
+  on_device.use_device("a GPU", counting_copies<3>(ThreadOrder::shuffled, copies));
+  on_cpu.step(0.002);
+  on_device.step(0.002);
+  MovedMass left{false, on_cpu.bodies_at_start()[0].mass, {}};
+  left.bodies.add(0);
+  const double front = on_cpu.front(left).along;
+  EXPECT_EQ(on_device.front(left).along, front);
+  EXPECT_LT(front, on_cpu.front(on_cpu.moved_mass()).along - 3.0) << "the right body is ahead";
+}
+
 // The order does not depend on sorting on the device.
 TEST(DeviceRun, ReturnsParticlesInTheirOrder) {
   Simulation<2> simulation(sliding_bodies<2>());

@@ -165,7 +165,8 @@ TEST(Rest, OfABodyThatHasNotMovedIsNamedSo) {
   Simulation<2> simulation(paper_case(block + Sets("body.block.velocity=[0.5,0]")));
   end_of(simulation);
   EXPECT_TRUE(simulation.ends_at_rest());
-  EXPECT_EQ(simulation.rest_text(), "the slide has not moved: no part of it by more than 1 m (time.moved_distance)");
+  EXPECT_EQ(simulation.rest_text(),
+            "the slide has not moved: no more than 0.5 % of its mass has travelled 1 m (time.moved_distance)");
   const std::string when = when_text(end_state<2>(simulation, false));
   EXPECT_EQ(when.substr(when.find(',')), ", has not moved");
 }
