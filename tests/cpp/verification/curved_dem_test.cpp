@@ -10,6 +10,8 @@ namespace {
 const auto block =
     release_on_dem({100.0, 0.0018, 2.5, {-350.0, -350.0, -250.0}, {350.0, 350.0, 450.0}}, elastic_rock(0.01), 10.0);
 
+const Sets following = "grid.follows_terrain=true; time.stepping=adaptive";
+
 // A block 10 m square in the map around a position, and 5 m high.
 Raster small_block(const Place& centre) {
   const Place half = Place::Constant(5.0);
@@ -113,12 +115,12 @@ struct Helix {
 
 // Ratio of the distance of a block along the channel to that of the point from the equation of motion, at each quarter
 // of a turn. The points of the DEM are `spacing` [m] apart.
-std::vector<double> run_along(double spacing, double turns, Curve& curve) {
+std::vector<double> run_along(double spacing, double turns, Curve& curve, const Sets& cells = {}) {
   const Helix helix;
   const Raster ground = raster_between(Place(-230.0, -230.0), Place(230.0, 230.0), spacing,
                                        [&](double x, double y) { return helix.height(x, y); });
   const double start = 15.0 * degree;
-  Simulation<3> simulation(case_on_dem(block, {"basal.friction_angle=6.0"}),
+  Simulation<3> simulation(case_on_dem(block, Sets("basal.friction_angle=6.0") + cells),
                            site_of(ground, small_block(helix.radius * Place(std::cos(start), std::sin(start)))));
   CentreOfMass now(simulation);
   const double above = helix.section - helix.off_centres(now.position);
@@ -178,6 +180,15 @@ TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
       "energy. This part falls with the distance of the points. The cells are the same in all three.");
   record.expect_near("place along the channel after a quarter of a turn, finest points, exact less found",
                      errors.back(), 0.0, 0.01);
+}
+
+TEST(HelicalChannel, BlockRunsLikeAPointInCellsThatFollowTheGround) {
+  Record record("Cells that follow the ground: channel along a helix", "The block and the channel of the test above.",
+                "the same point", "point on a surface with Coulomb friction");
+  Curve curve;
+  for (const double ratio : run_along(2.5, 345.0 / 360.0, curve, following)) {
+    record.expect_near("place along the channel over exact, after each quarter of a turn", ratio, 1.0, 0.01);
+  }
 }
 
 }  // namespace

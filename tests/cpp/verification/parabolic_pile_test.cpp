@@ -1,4 +1,5 @@
 // A flat pile of cohesionless material spreads across the direction in which it slides: Savage and Hutter 1989.
+#include "../support/following_plane.hpp"
 #include "../support/mass_spread.hpp"
 #include "verification.hpp"
 
@@ -27,12 +28,20 @@ double exact_half_length(double time) {
   return length;
 }
 
-std::string parabola() {
-  std::string vertices;
+// Outline of the cap on a base, along which and normal to which its vertices are given.
+std::vector<Vector<double, 2>> cap_on(const Incline& base) {
+  std::vector<Vector<double, 2>> vertices;
   for (int k = 80; k >= 0; --k) {
     const double x = half_length * (k / 40.0 - 1.0);
-    vertices +=
-        fmt::format("{}[{},{}]", vertices.empty() ? "" : ",", x, height * (1.0 - x * x / (half_length * half_length)));
+    vertices.push_back(base.place(x, height * (1.0 - x * x / (half_length * half_length))));
+  }
+  return vertices;
+}
+
+std::string parabola() {
+  std::string vertices;
+  for (const auto& vertex : cap_on({0.0})) {
+    vertices += fmt::format("{}[{},{}]", vertices.empty() ? "" : ",", vertex[0], vertex[1]);
   }
   return "body.block.vertices=[" + vertices + "]";
 }
@@ -50,6 +59,26 @@ TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
       run_until(simulation, time);
       record.expect_near(fmt::format("spread over exact, cells of {} m, after {} s", cell, time),
                          mass_spread(simulation) * std::sqrt(5.0) / exact_half_length(time), 1.0, 0.02);
+    }
+  }
+}
+
+TEST(ParabolicPile, SpreadsOnPlanesInCellsThatFollowThem) {
+  Record record("Cells that follow the ground: parabolic pile on planes",
+                "The pile of the test above on inclined planes; gravity is normal to the plane.",
+                "standard deviation of the mass g/sqrt(5): g'' = 2 K g_z H L/g^2, K = tan^2(45 deg - phi/2)",
+                "Savage and Hutter 1989");
+  for (const double degrees : {0.0, 15.0, 30.0}) {
+    const Incline plane{degrees};
+    for (const double cell : {10.0, 5.0}) {
+      Simulation<2> simulation(body_on_plane(
+          plane, cell, cap_on(plane), {fmt::format("case.gravity_tilt={}", -degrees), "basal.friction_angle=0"}));
+      run_until(simulation, 20.0);
+      const Spread found(simulation, plane);
+      const std::string where = fmt::format(", plane of {} degrees, cells of {} m", degrees, cell);
+      record.expect_near("spread over exact" + where, found.along * std::sqrt(5.0) / exact_half_length(20.0), 1.0,
+                         0.013);
+      record.expect_near("growth of the volume" + where, found.growth, 0.0, 0.03);
     }
   }
 }

@@ -18,6 +18,17 @@ TEST(RoughDem, FilteredAddsNoFriction) {
       "of one cell, which points a cell apart need, reduces it by 12 %.");
 }
 
+TEST(RoughDem, AddsNoFrictionInCellsThatFollowTheGround) {
+  const Sets following = "grid.follows_terrain=true; time.stepping=adaptive";
+  Record record = make_record("Cells that follow the ground: noise on the points of a DEM, filtered");
+  expect_no_friction_on_plane(record, 0.05, 0.5, 0.02, 3, following);
+  expect_no_friction_on_plane(record, 0.1, 0.5, 0.02, 3, following);
+  expect_no_friction_on_plane(record, 0.2, 0.5, 0.02, 3, following);
+  expect_no_friction_on_plane(record, 0.2, 1.0, 0.02, 3, following);
+  expect_wedge_with_noise(record, 0.5, 0.12, following);
+  expect_wedge_with_noise(record, 1.0, 0.12, following);
+}
+
 }  // namespace
 }  // namespace thawslide::verification
 #endif
