@@ -14,7 +14,7 @@ import thawslide
 from thawslide import Case, Simulation
 
 FORK = multiprocessing.get_context("fork")
-HANG = 120.0  # s
+HANG = 600.0  # s
 
 
 def velocity_of(case: Path) -> float:
