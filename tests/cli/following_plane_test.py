@@ -1,0 +1,37 @@
+"""A slide on a plane that runs out, on cells that follow the terrain: areas and travel against their limits.
+
+The limits are those of fine level cells (docs/refinement.md): 240,000 m2, 600,000 m2 and 1,335 m. Areas are thicker than
+0.1 m on map cells of 20 m.
+"""
+
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, run_facts
+
+sys.path.append(str(ROOT))
+
+from reproduction.studies import refinement
+from reproduction.study import Job, Place
+
+FOLLOWING = ("grid.follows_terrain=true", 'time.stepping="adaptive"', "maps.cell=20")
+# Cell [m], and the largest deviations of deposit area, affected area and travel, and of the growth of the volume.
+BOUNDS = [
+    pytest.param(20.0, 0.12, 0.11, 0.02, 0.07),
+    pytest.param(10.0, 0.06, 0.04, 0.02, 0.06, marks=pytest.mark.long),
+]
+
+
+@pytest.mark.parametrize(("cell", "deposit", "affected", "travel", "growth"), BOUNDS)
+def test_areas_on_coarse_cells_are_those_of_fine_ones(
+    binary: Path, tmp_path: Path, cell: float, deposit: float, affected: float, travel: float, growth: float
+) -> None:
+    refinement.write_case(refinement.PLANE, "refined-plane", tmp_path, tmp_path)
+    level = refinement.plane_job(cell, tmp_path)
+    Place(binary, tmp_path, tmp_path).perform([Job(level.key, "", (*level.sets, *FOLLOWING), level.case)])
+    facts = run_facts(tmp_path / level.key)
+    assert facts["covered_area_m2"] == pytest.approx(240_000.0, rel=deposit)
+    assert facts["affected_area_m2"] == pytest.approx(600_000.0, rel=affected)
+    assert facts["travel_distance_m"] == pytest.approx(1_335.0, rel=travel)
+    assert 0.0 < facts["dilation_fraction"] < growth
