@@ -1,7 +1,7 @@
 """A slide on a plane that runs out, on cells that follow the terrain: areas and travel against their limits.
 
-The limits are those of fine level cells (docs/refinement.md): 240,000 m2, 600,000 m2 and 1,335 m. Areas are thicker than
-0.1 m on map cells of 20 m.
+The limits are those of fine level cells (docs/refinement.md): 240,000 m2, 600,000 m2 and 1,335 m. Areas are thicker
+than 0.1 m on map cells of 20 m.
 """
 
 import sys
