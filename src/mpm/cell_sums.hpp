@@ -70,7 +70,7 @@ class CellSums {
                                                     std::size_t last, const Register (&value)[lanes],
                                                     const Register (&flux)[Dim][lanes], bool begins, bool ends,
                                                     Register (&of_cell)[layers * layer_nodes], Real* records) {
-    unrolled<layers>([&](auto layer) THAWSLIDE_INLINE_LAMBDA {
+    for (std::size_t layer = 0; layer < layers; ++layer) {
       Register sums[layer_nodes];
       unrolled<layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
         sums[k] = begins ? Register(Real(0)) : of_cell[layer * layer_nodes + k];
@@ -112,7 +112,7 @@ class CellSums {
           of_cell[layer * layer_nodes + k] = sums[k];
         }
       });
-    });
+    }
   }
 
   Patch<Dim, Components>& patch_;
