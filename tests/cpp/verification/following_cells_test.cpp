@@ -5,7 +5,7 @@
 #include <fstream>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "../support/small_terrain.hpp"
 #include "mpm/particle_pass.hpp"
@@ -255,39 +255,12 @@ TEST(FollowingCells, RigidTranslationIsKept) {
       file << fmt::format("{},{}\n", 5.0 * k, 20.0 * std::sin(0.07 * 5.0 * k));
     }
   }
-  sim::Simulation<2> simulation(paper_case(R"(
-[case]
-gravity = 0.0
-[time]
-end = 10.0
-step = 0.004
-[grid]
-cell = 10.0
-follows_terrain = true
-min = [-100.0, -50.0]
-max = [600.0, 150.0]
-[terrain]
-type = "profile"
-file = "waves.csv"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-min = [0.0, 60.0]
-max = [60.0, 100.0]
-velocity = [40.0, 0.0]
-[mechanics]
-initial_stress = "none"
-[basal]
-friction = "constant"
-friction_angle = 0.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)"));
+  const std::string flying =
+      "time.end=10; time.step=0.004; grid.cell=10; grid.follows_terrain=true; grid.min=[-100,-50]; grid.max=[600,150]; "
+      "terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.poisson_ratio=0.2; "
+      "body.block.min=[0,60]; body.block.max=[60,100]; body.block.velocity=[40,0]; basal.friction=constant; "
+      "basal.friction_angle=0; terrain.file=";
+  sim::Simulation<2> simulation(published_case("free", flying + (folder_of_this_test() / "waves.csv").string()));
   run_until(simulation, 2.0);
   double change = 0.0, stress = 0.0;
   const auto& particles = simulation.particles();

@@ -43,42 +43,13 @@ void write_profile(const std::vector<std::pair<double, double>>& points) {
 }
 
 // Elastic block of 40 m x 20 m on frictionless ground, given by write_profile; its front is at x = 50 m.
-config::Case sliding_block(const std::vector<std::string>& sets) {
-  return paper_case(R"(
-[case]
-dimension = 2
-[time]
-end = 4.0
-stepping = "adaptive"
-[grid]
-cell = 5.0
-follows_terrain = true
-min = [-90.0, -300.0]
-max = [350.0, 80.0]
-[terrain]
-type = "profile"
-file = "profile.csv"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-viscosity_time = 0.01
-[body.block]
-material = "rock"
-min = [10.0, 0.0]
-max = [50.0, 20.0]
-velocity = [20.0, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 0.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                    sets);
+config::Case sliding_block(const Sets& sets) {
+  const std::string on_profile =
+      "time.end=4; time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.min=[-90,-300]; "
+      "grid.max=[350,80]; terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.viscosity_time=0.01; "
+      "body.block.min=[10,0]; body.block.max=[50,20]; body.block.velocity=[20,0]; basal.friction_angle=0; "
+      "terrain.file=";
+  return base_case("block", Sets(on_profile + (folder_of_this_test() / "profile.csv").string()) + sets);
 }
 
 struct Centre {
