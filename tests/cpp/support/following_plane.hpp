@@ -49,24 +49,15 @@ inline config::Case body_on_plane(const Incline& plane, double cell, const std::
   return base_case("block", on_plane + sets);
 }
 
-// Standard deviation of the mass along the plane [m], and the volume relative to that at t = 0.
-struct Spread {
-  double along, growth;
-
-  Spread(const sim::Simulation<2>& simulation, const Incline& plane) {
-    const auto& particles = simulation.particles();
-    double mass = 0.0, first = 0.0, second = 0.0, volume = 0.0, initial_volume = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double along_plane = particles.position.get<Vector<double, 2>>(p).dot(plane.down());
-      mass += particles.mass(p);
-      first += particles.mass(p) * along_plane;
-      second += particles.mass(p) * along_plane * along_plane;
-      volume += particles.volume(p);
-      initial_volume += particles.initial_volume(p);
-    }
-    along = std::sqrt(second / mass - first / mass * first / mass);
-    growth = volume / initial_volume - 1.0;
+// Growth of the volume relative to that at t = 0.
+inline double volume_growth(const sim::Simulation<2>& simulation) {
+  const auto& particles = simulation.particles();
+  double volume = 0.0, initial_volume = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    volume += particles.volume(p);
+    initial_volume += particles.initial_volume(p);
   }
-};
+  return volume / initial_volume - 1.0;
+}
 
 }  // namespace thawslide::testing_support

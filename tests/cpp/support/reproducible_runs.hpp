@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "band/basal_segments.hpp"
 #include "base/parallel.hpp"
 #include "case_from_text.hpp"
 #include "fields.hpp"

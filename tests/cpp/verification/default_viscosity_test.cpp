@@ -23,7 +23,7 @@ class SlidingBlock {
     run_until(simulation_, 20.0);
   }
 
-  [[nodiscard]] double growth() const { return Spread(simulation_, plane_).growth; }
+  [[nodiscard]] double growth() const { return volume_growth(simulation_); }
   // Standard deviation of the particles' velocities [m/s].
   [[nodiscard]] double noise() const {
     const auto& particles = simulation_.particles();

@@ -1,26 +1,23 @@
 // Slides on planes with cells that follow the ground.
 #include "../support/following_plane.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <memory>
 
-#include "../support/record.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
 // Block of 200 m x 40 m on a plane, with gravity normal to it.
+struct Spread {
+  double along, growth;  // standard deviation of the mass along the plane [m], relative growth of the volume
+};
 Spread spread_of_block(const Incline& plane, double cell) {
   Simulation<2> simulation(body_on_plane(
       plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
       {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.rock.viscosity_time=0.004"}));
   run_until(simulation, 16.0);
-  return Spread(simulation, plane);
+  return {mass_spread(simulation, plane.down()), volume_growth(simulation)};
 }
 
 TEST(FollowingPlane, BlockSpreadsAsOnAGridLine) {

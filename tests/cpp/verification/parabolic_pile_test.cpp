@@ -1,5 +1,4 @@
 // A flat pile of cohesionless material spreads across the direction in which it slides: Savage and Hutter 1989.
-#include "../support/mass_spread.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
