@@ -10,6 +10,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -43,6 +44,15 @@ template <int Dim>
 device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
   EXPECT_EQ(not_on_devices(simulation.parameters(), simulation.model()), "");
   return device_model_of(simulation.parameters(), simulation.model(), true);
+}
+
+template <int Dim>
+using Steps = device::Step<Host, mpm::Ugimp, Dim>;
+template <int Dim>
+std::unique_ptr<Steps<Dim>> steps_of(Simulation<Dim>& simulation, Host& host) {
+  return std::make_unique<Steps<Dim>>(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
+                                      simulation.particles().size(),
+                                      terrain_for_device(simulation.model(), simulation.grid().cell()));
 }
 
 // Fields that a step without heat and pore pressure does not use.
@@ -140,20 +150,18 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   Simulation<Dim> simulation(parameters);
   ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeFunction::ugimp);
   Host host = with;
-  device::Step<Host, mpm::Ugimp, Dim> mechanics(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
-                                                simulation.particles().size(),
-                                                terrain_for_device(simulation.model(), simulation.grid().cell()));
+  const auto mechanics = steps_of(simulation, host);
   const bool heat = simulation.model().band.heat, pressure = simulation.model().band.pressure;
   const Fields first = fields_by_id(simulation.particles());
   StepTotals totals{};
   const std::vector<std::uint64_t> blocks = simulation.grid().blocks();
   for (int k = 0; k < steps; ++k) {
     if (k == sorted_before) {
-      mechanics.sort_in_memory();
+      mechanics->sort_in_memory();
     }
     const double time = simulation.time();
     simulation.step(dt);
-    const auto sums = mechanics.step(time, dt);
+    const auto sums = mechanics->step(time, dt);
     const std::string when = fmt::format("step {}", k);
     EXPECT_EQ(numbers_of(sums.contact), numbers_of(simulation.contact())) << when;
     EXPECT_EQ(sums.invalid.id, -1) << when;
@@ -166,10 +174,10 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   EXPECT_GT(simulation.contact().friction_work, 0.0);
   EXPECT_GT(simulation.budget().plastic, 0.0);
   EXPECT_NE(simulation.grid().blocks(), blocks);
-  EXPECT_EQ(mechanics.tables().tiles, simulation.grid().tiles().size());
+  EXPECT_EQ(mechanics->tables().tiles, simulation.grid().tiles().size());
   mpm::Particles<Dim> found;
   found.resize(simulation.particles().size());
-  mechanics.copy_to(mpm::view_of(found));
+  mechanics->copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
   EXPECT_EQ(heat, totals[0] > 0.0);
   EXPECT_EQ(totals[2] != 0.0, parameters.band.thickness.table.value.size() > 1);
@@ -263,13 +271,11 @@ void expect_all_barriers_to_be_needed() {
   }
   const auto step_without = [&](int barrier) {
     Host host(ThreadOrder::shuffled, 7, barrier);
-    device::Step<Host, mpm::Ugimp, Dim> steps(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
-                                              simulation.particles().size(),
-                                              terrain_for_device(simulation.model(), simulation.grid().cell()));
-    steps.step(simulation.time(), 0.002);
+    const auto steps = steps_of(simulation, host);
+    steps->step(simulation.time(), 0.002);
     mpm::Particles<Dim> found;
     found.resize(simulation.particles().size());
-    steps.copy_to(mpm::view_of(found));
+    steps->copy_to(mpm::view_of(found));
     return fields_by_id(found);
   };
   const Fields whole = step_without(device::HostGroup::none);
@@ -288,16 +294,14 @@ TEST(DeviceStep, IsSubmittedInFourGraphs) {
   const config::Case parameters = with_pressure<3>(balanced("vented"));
   Simulation<3> simulation(parameters);
   Host host;
-  device::Step<Host, mpm::Ugimp, 3> steps(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
-                                          simulation.particles().size(),
-                                          terrain_for_device(simulation.model(), simulation.grid().cell()));
+  const auto steps = steps_of(simulation, host);
   // Some of the later steps are so short that all particles remain in their cells.
   std::size_t fewest_waits = 1000, launches = 0;
   double time = 0.0;
   for (int k = 0; k < 20; ++k) {
     const double dt = k < 10 ? 0.002 : 1e-7;
     const std::size_t waits = host.waits(), launched = host.launches();
-    steps.step(time, dt);
+    steps->step(time, dt);
     time += dt;
     if (host.waits() - waits < fewest_waits) {
       fewest_waits = host.waits() - waits;

@@ -40,16 +40,20 @@ std::shared_ptr<const terrain::Surface<Dim>> random_ground() {
   }
 }
 
+template <class ReadRecords, class AddedRecords>
+struct Kernel {
+  using Reads = ReadRecords;
+  using Adds = AddedRecords;
+  using Totals = mpm::NoTotals;
+};
+
 // Stores velocity and its gradient in the velocity and the affine velocity, and the temperature gradient in the
 // displacement.
 template <int Dim>
-struct ReadVelocity {
-  using Reads = mpm::RecordList<mpm::Velocity>;
-  using Adds = mpm::RecordList<>;
-  using Totals = mpm::NoTotals;
-
+struct ReadVelocity : Kernel<mpm::RecordList<mpm::Velocity>, mpm::RecordList<>> {
   template <class Particles, class At, class Seen, class Scatter>
-  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/, Totals& /*totals*/) const {
+  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/,
+                  mpm::NoTotals& /*totals*/) const {
     const auto read = seen.template read<mpm::Velocity, Dim>();
     const auto gradient = mpm::gradient_of(read);
     particles.affine_velocity.store_vector(at, gradient.reshaped());
@@ -59,27 +63,20 @@ struct ReadVelocity {
   }
 };
 template <int Dim>
-struct ReadTemperature {
-  using Reads = mpm::RecordList<mpm::NodalState>;
-  using Adds = mpm::RecordList<>;
-  using Totals = mpm::NoTotals;
-
+struct ReadTemperature : Kernel<mpm::RecordList<mpm::NodalState>, mpm::RecordList<>> {
   template <class Particles, class At, class Seen, class Scatter>
-  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/, Totals& /*totals*/) const {
+  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/,
+                  mpm::NoTotals& /*totals*/) const {
     const auto read = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
     particles.displacement.store_vector(at, mpm::gradient_of(read, 0));
   }
 };
 // Heat flow equal to the particles' displacement.
 template <int Dim>
-struct AddHeatFlow {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<mpm::HeatRates>;
-  using Totals = mpm::NoTotals;
-
+struct AddHeatFlow : Kernel<mpm::RecordList<>, mpm::RecordList<mpm::HeatRates>> {
   template <class Particles, class At, class Seen, class Scatter>
   void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& added,
-                  Totals& /*totals*/) const {
+                  mpm::NoTotals& /*totals*/) const {
     auto& rates = added.template of<mpm::HeatRates>();
     for (int a = 0; a < Dim; ++a) {
       rates.flux[a][mpm::HeatRates::conduction] = particles.displacement.load(at, a);
