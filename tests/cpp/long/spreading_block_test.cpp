@@ -1,4 +1,5 @@
 // A cohesionless block that spreads over level ground, on a grid line and between two.
+#include "../support/mass_spread.hpp"
 #include "../verification/verification.hpp"
 
 namespace thawslide::verification {

@@ -76,17 +76,16 @@ inline config::Site site_of(Raster ground, Raster thickness) {
 }
 
 // Mass averages over the particles of position [m, absolute] and velocity [m/s].
-template <int Dim>
 struct CentreOfMass {
   double mass = 0.0;
-  Vector<double, Dim> position = Vector<double, Dim>::Zero(), velocity = Vector<double, Dim>::Zero();
+  Position position = Position::Zero(), velocity = Position::Zero();
 
-  explicit CentreOfMass(const sim::Simulation<Dim>& simulation) {
+  explicit CentreOfMass(const sim::Simulation<3>& simulation) {
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       mass += particles.mass(p);
-      position += particles.mass(p) * particles.position.template get<Vector<double, Dim>>(p);
-      velocity += particles.mass(p) * particles.velocity.template get<Vector<double, Dim>>(p);
+      position += particles.mass(p) * particles.position.get<Position>(p);
+      velocity += particles.mass(p) * particles.velocity.get<Position>(p);
     }
     position = position / mass + simulation.model().origin;
     velocity /= mass;

@@ -47,10 +47,10 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
   });
   const Place along(std::cos(azimuth), std::sin(azimuth));
   Simulation<3> simulation(case_on_dem(block), site_of(ground, small_block(radius * std::sin(start) * along)));
-  const auto from_centre = [&](const CentreOfMass<3>& body) {
+  const auto from_centre = [&](const CentreOfMass& body) {
     return Position(body.position - Position(0.0, 0.0, radius));
   };
-  const auto angle = [&](const CentreOfMass<3>& body) {
+  const auto angle = [&](const CentreOfMass& body) {
     const Position arm = from_centre(body);
     return std::atan2(along.dot(arm.head<2>()), -arm[2]);
   };

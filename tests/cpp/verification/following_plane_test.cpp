@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "../support/mass_spread.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

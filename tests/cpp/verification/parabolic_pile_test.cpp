@@ -1,4 +1,5 @@
 // A flat pile of cohesionless material spreads across the direction in which it slides: Savage and Hutter 1989.
+#include "../support/mass_spread.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

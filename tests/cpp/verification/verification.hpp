@@ -39,11 +39,4 @@ double mass_mean(const Run& run, const Of& of) {
   return mass > 0.0 ? sum / mass : 0.0;
 }
 
-// Standard deviation of the mass along a direction [m].
-inline double mass_spread(const Simulation<2>& run, const Vector<double, 2>& direction = {1.0, 0.0}) {
-  const auto along = [&](std::size_t p) { return run.particles().position.get<Vector<double, 2>>(p).dot(direction); };
-  const double mean = mass_mean(run, along);
-  return std::sqrt(mass_mean(run, [&](std::size_t p) { return std::pow(along(p) - mean, 2); }));
-}
-
 }  // namespace thawslide::verification
