@@ -72,6 +72,7 @@ void expect_the_same_with_every_choice(int steps) {
       {"mechanics.transfer=\"apic\""},
       {"mechanics.transfer=\"apic\"", "mechanics.shape_function=\"quadratic\""},
       {"mechanics.transfer=\"fmpm\"", "mechanics.fmpm_interval=0.005"},
+      {"mechanics.transfer=\"fmpm\"", "mechanics.fmpm_interval=0.005", "mechanics.shape_function=\"quadratic\""},
       {at_face, "heat.boundary.x_min={temperature=3.0}"},
       {at_face, "heat.boundary.x_min={flux=400.0}"},
       {at_face, "heat.boundary.x_min={temperature=3.0}", "mechanics.enabled=false"},
@@ -180,6 +181,8 @@ config::Site bumpy_site(double known_to, double spacing = 2.0) {
 TEST(DeviceRun, StaysOnKnownGround) {
   const config::Case parameters = sliding_bodies<3>(on_dem());
   EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
+  const config::Case loaded = sliding_bodies<3>(on_dem() + "pressure.frozen=none");  // computes the load of particles
+  EXPECT_EQ(expect_the_same_run<3>(loaded, 12, bumpy_site(40.0)), 0);
   const config::Case by_layer =
       sliding_bodies<3>(on_dem() +
                         "band.region=first_layer; band.cut_cells=equal_thickness; body.right.particles_per_axis=2; "

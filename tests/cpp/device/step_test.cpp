@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -23,10 +26,33 @@ namespace {
 using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
+// A pass does not compile if a record is both read and added to, under one name or two.
+using mpm::are_disjoint, mpm::RecordList;
+static_assert(are_disjoint<RecordList<mpm::Motion, mpm::NodalState>, RecordList<mpm::Velocity, mpm::HeatRates>>);
+static_assert(are_disjoint<RecordList<>, RecordList<mpm::Velocity>>);
+static_assert(!are_disjoint<RecordList<mpm::Motion, mpm::Velocity>, RecordList<mpm::HeatRates, mpm::Velocity>>);
+static_assert(!are_disjoint<RecordList<mpm::Velocity>, RecordList<mpm::AffineVelocity>>);
+static_assert(!are_disjoint<RecordList<mpm::AffineMotion>, RecordList<mpm::Motion>>);
+// Two additions to the same components of a record, and patches of two records in the same memory.
+static_assert(mpm::all_apart<RecordList<mpm::NearGround, mpm::NearGroundByLinear, mpm::Clearance>, 3>);
+static_assert(!mpm::all_apart<RecordList<mpm::Momentum, mpm::AffineMomentum>, 3>);
+static_assert(!mpm::all_apart<RecordList<mpm::AffineVelocity, mpm::Velocity>, 2>);
+static_assert(mpm::one_record<RecordList<mpm::NearGround, mpm::Clearance>>);
+static_assert(!mpm::one_record<RecordList<mpm::Velocity, mpm::HeatRates>>);
+
 template <int Dim>
 device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
   EXPECT_EQ(not_on_devices(simulation.parameters(), simulation.model()), "");
   return device_model_of(simulation.parameters(), simulation.model(), true);
+}
+
+template <int Dim>
+using Steps = device::Step<Host, mpm::Ugimp, Dim>;
+template <int Dim>
+std::unique_ptr<Steps<Dim>> steps_of(Simulation<Dim>& simulation, Host& host) {
+  return std::make_unique<Steps<Dim>>(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
+                                      simulation.particles().size(),
+                                      terrain_for_device(simulation.model(), simulation.grid().cell()));
 }
 
 // Fields that a step without heat and pore pressure does not use.
@@ -45,44 +71,34 @@ void expect_the_same_particles(const mpm::Particles<Dim>& expected, const mpm::P
 }
 
 template <int Dim>
-void expect_the_same_contact(const terrain::ContactWork<Dim>& expected, const terrain::ContactWork<Dim>& found,
-                             const std::string& when) {
-  EXPECT_EQ(found.friction_work, expected.friction_work) << when;
-  EXPECT_EQ(found.loss, expected.loss) << when;
-  EXPECT_EQ(found.damping, expected.damping) << when;
-  EXPECT_EQ(found.node_kinetic, expected.node_kinetic) << when;
-  EXPECT_EQ(found.area, expected.area) << when;
-  EXPECT_EQ(found.friction_area, expected.friction_area) << when;
-  EXPECT_EQ(found.shear_force, expected.shear_force) << when;
-  EXPECT_EQ(found.force, expected.force) << when;
-  EXPECT_EQ(found.constraint_impulse, expected.constraint_impulse) << when;
+std::vector<double> numbers_of(const terrain::ContactWork<Dim>& contact) {
+  std::vector<double> numbers{contact.friction_work, contact.loss,          contact.damping,    contact.node_kinetic,
+                              contact.area,          contact.friction_area, contact.shear_force};
+  for (const auto& vector : {contact.force, contact.constraint_impulse}) {
+    numbers.insert(numbers.end(), vector.begin(), vector.end());
+  }
+  return numbers;
 }
 
-// Sums over steps, as in the budgets.
-struct StepTotals {
-  double friction_heat = 0, advection = 0, band_rescale = 0, drained_water = 0, drained_heat = 0, vented_water = 0;
+// Sums over steps, as in the budgets: of friction heat, advection, band rescaling, drained water and heat, vented
+// water.
+using StepTotals = std::array<double, 6>;
 
-  template <int Dim>
-  void add(const device::StepSums<Dim>& sums) {
-    friction_heat += sums.heat.friction;
-    advection += sums.heat.advection;
-    band_rescale += sums.band_rescale;
-    drained_water += sums.drained.mass;
-    drained_heat += sums.drained.heat;
-    vented_water += sums.vented;
-  }
-};
+template <int Dim>
+void add(const device::StepSums<Dim>& sums, StepTotals& totals) {
+  const StepTotals added{sums.heat.friction, sums.heat.advection, sums.band_rescale,
+                         sums.drained.mass,  sums.drained.heat,   sums.vented};
+  std::transform(totals.begin(), totals.end(), added.begin(), totals.begin(), std::plus<>());
+}
 template <int Dim>
 void expect_the_same_budgets(const Simulation<Dim>& simulation, const StepTotals& found, const std::string& when) {
-  const Budget<Dim>& expected = simulation.budget();
-  if (simulation.model().band.heat) {
-    EXPECT_EQ(found.friction_heat, expected.friction_heat) << when;
-    EXPECT_EQ(found.advection, expected.advection) << when;
-    EXPECT_EQ(found.band_rescale, expected.band_rescale) << when;
+  const Budget<Dim>& budget = simulation.budget();
+  const StepTotals expected{budget.friction_heat, budget.advection,    budget.band_rescale,
+                            budget.drained_water, budget.drained_heat, budget.vented_water};
+  const std::size_t first = simulation.model().band.heat ? 0 : 3;
+  for (std::size_t k = first; k < expected.size(); ++k) {
+    EXPECT_EQ(found[k], expected[k]) << "sum " << k << ", " << when;
   }
-  EXPECT_EQ(found.drained_water, expected.drained_water) << when;
-  EXPECT_EQ(found.drained_heat, expected.drained_heat) << when;
-  EXPECT_EQ(found.vented_water, expected.vented_water) << when;
 }
 
 using Fields = std::map<std::string, std::vector<double>>;
@@ -134,24 +150,22 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   Simulation<Dim> simulation(parameters);
   ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeFunction::ugimp);
   Host host = with;
-  device::Step<Host, mpm::Ugimp, Dim> mechanics(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
-                                                simulation.particles().size(),
-                                                terrain_for_device(simulation.model(), simulation.grid().cell()));
+  const auto mechanics = steps_of(simulation, host);
   const bool heat = simulation.model().band.heat, pressure = simulation.model().band.pressure;
   const Fields first = fields_by_id(simulation.particles());
-  StepTotals totals;
+  StepTotals totals{};
   const std::vector<std::uint64_t> blocks = simulation.grid().blocks();
   for (int k = 0; k < steps; ++k) {
     if (k == sorted_before) {
-      mechanics.sort_in_memory();
+      mechanics->sort_in_memory();
     }
     const double time = simulation.time();
     simulation.step(dt);
-    const auto sums = mechanics.step(time, dt);
+    const auto sums = mechanics->step(time, dt);
     const std::string when = fmt::format("step {}", k);
-    expect_the_same_contact(simulation.contact(), sums.contact, when);
+    EXPECT_EQ(numbers_of(sums.contact), numbers_of(simulation.contact())) << when;
     EXPECT_EQ(sums.invalid.id, -1) << when;
-    totals.add(sums);
+    add(sums, totals);
     expect_the_same_budgets(simulation, totals, when);
     if (::testing::Test::HasFailure()) {
       return;
@@ -160,13 +174,13 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   EXPECT_GT(simulation.contact().friction_work, 0.0);
   EXPECT_GT(simulation.budget().plastic, 0.0);
   EXPECT_NE(simulation.grid().blocks(), blocks);
-  EXPECT_EQ(mechanics.tables().tiles, simulation.grid().tiles().size());
+  EXPECT_EQ(mechanics->tables().tiles, simulation.grid().tiles().size());
   mpm::Particles<Dim> found;
   found.resize(simulation.particles().size());
-  mechanics.copy_to(mpm::view_of(found));
+  mechanics->copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
-  EXPECT_EQ(heat, totals.friction_heat > 0.0);
-  EXPECT_EQ(totals.band_rescale != 0.0, parameters.band.thickness.table.value.size() > 1);
+  EXPECT_EQ(heat, totals[0] > 0.0);
+  EXPECT_EQ(totals[2] != 0.0, parameters.band.thickness.table.value.size() > 1);
   if (pressure) {
     expect_water_to_work(simulation, first);
   }
@@ -248,22 +262,46 @@ TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithPorePressureInSpace) {
   expect_the_steps_of_the_cpu<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));
 }
 
+// The emulation shows a missing barrier: a step without the barrier of a number in every group of threads differs.
+template <int Dim>
+void expect_all_barriers_to_be_needed() {
+  Simulation<Dim> simulation(with_pressure<Dim>(balanced("vented")));
+  for (int k = 0; k < 60; ++k) {
+    simulation.step(0.002);
+  }
+  const auto step_without = [&](int barrier) {
+    Host host(ThreadOrder::shuffled, 7, barrier);
+    const auto steps = steps_of(simulation, host);
+    steps->step(simulation.time(), 0.002);
+    mpm::Particles<Dim> found;
+    found.resize(simulation.particles().size());
+    steps->copy_to(mpm::view_of(found));
+    return fields_by_id(found);
+  };
+  const Fields whole = step_without(device::HostGroup::none);
+  for (int barrier = 0; barrier < 6; ++barrier) {
+    EXPECT_NE(step_without(barrier), whole) << barrier;
+  }
+}
+TEST(DeviceStep, NeedsAllBarriers) {
+  expect_all_barriers_to_be_needed<2>();
+  expect_all_barriers_to_be_needed<3>();
+}
+
 // Launches of a step in which no particle changes its cell. The CPU waits for four results: whether a particle has
 // changed its cell, whether water seeps (for the averages, and for the pressures), and the sums of the step.
 TEST(DeviceStep, IsSubmittedInFourGraphs) {
   const config::Case parameters = with_pressure<3>(balanced("vented"));
   Simulation<3> simulation(parameters);
   Host host;
-  device::Step<Host, mpm::Ugimp, 3> steps(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
-                                          simulation.particles().size(),
-                                          terrain_for_device(simulation.model(), simulation.grid().cell()));
+  const auto steps = steps_of(simulation, host);
   // Some of the later steps are so short that all particles remain in their cells.
   std::size_t fewest_waits = 1000, launches = 0;
   double time = 0.0;
   for (int k = 0; k < 20; ++k) {
     const double dt = k < 10 ? 0.002 : 1e-7;
     const std::size_t waits = host.waits(), launched = host.launches();
-    steps.step(time, dt);
+    steps->step(time, dt);
     time += dt;
     if (host.waits() - waits < fewest_waits) {
       fewest_waits = host.waits() - waits;

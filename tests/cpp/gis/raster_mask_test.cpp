@@ -10,44 +10,27 @@ using namespace site_case;
 enum class MaskKind { internal, adjacent, alpha, real_alpha };
 
 // A raster as in map_files.hpp, with points masked by `is_masked`.
-std::string masked(const std::string& name, MaskKind kind, const ForeignRaster& what,
+std::string masked(const std::string& name, MaskKind kind, ForeignRaster what,
                    const std::function<bool(int, int)>& is_masked) {
-  GDALAllRegister();
   const bool has_alpha = kind == MaskKind::alpha || kind == MaskKind::real_alpha;
-  const std::string file = in_folder(name);
+  what.bands = has_alpha ? 2 : 1;
+  what.type = kind == MaskKind::alpha ? GDT_Byte : what.type;
+  const std::string file = foreign(name, what);
   CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", kind == MaskKind::internal ? "YES" : "NO");
-  const char* const with_alpha[] = {"ALPHA=YES", nullptr};
-  const GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-      file.c_str(), what.columns, what.rows, has_alpha ? 2 : 1, kind == MaskKind::alpha ? GDT_Byte : what.type,
-      has_alpha ? const_cast<char**>(with_alpha) : nullptr));
-  std::array<double, 6> transform = what.transform;
-  dataset->SetGeoTransform(transform.data());
-  OGRSpatialReference reference;
-  reference.SetFromUserInput(what.crs.c_str());
-  dataset->SetSpatialRef(&reference);
-  if (!has_alpha) {
-    EXPECT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
-  }
-  GDALRasterBand& mask = has_alpha ? *dataset->GetRasterBand(2) : *dataset->GetRasterBand(1)->GetMaskBand();
-  if (!std::isnan(what.nodata)) {
-    dataset->GetRasterBand(1)->SetNoDataValue(what.nodata);
-  }
-  std::vector<double> values = what.values, opacity;
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  EXPECT_EQ(has_alpha ? dataset->GetRasterBand(2)->SetColorInterpretation(GCI_AlphaBand)
+                      : dataset->CreateMaskBand(GMF_PER_DATASET),
+            CE_None);
+  std::vector<double> opacity;
   for (int line = 0; line < what.rows; ++line) {
     for (int column = 0; column < what.columns; ++column) {
-      if (what.values.empty()) {
-        values.push_back(static_cast<double>(values.size() + 1));
-      }
       opacity.push_back(is_masked(column, line) ? 0.0 : kind == MaskKind::real_alpha ? 0.4 : 255.0);
     }
   }
-  const auto write = [&](GDALRasterBand& band, std::vector<double>& numbers) {
-    EXPECT_EQ(band.RasterIO(GF_Write, 0, 0, what.columns, what.rows, numbers.data(), what.columns, what.rows,
-                            GDT_Float64, 0, 0, nullptr),
-              CE_None);
-  };
-  write(*dataset->GetRasterBand(1), values);
-  write(mask, opacity);
+  GDALRasterBand& mask = has_alpha ? *dataset->GetRasterBand(2) : *dataset->GetRasterBand(1)->GetMaskBand();
+  EXPECT_EQ(mask.RasterIO(GF_Write, 0, 0, what.columns, what.rows, opacity.data(), what.columns, what.rows, GDT_Float64,
+                          0, 0, nullptr),
+            CE_None);
   CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
   return file;
 }

@@ -15,6 +15,7 @@ namespace thawslide::gis {
 namespace {
 
 using namespace site_case;
+using testing_support::value_of;
 
 // ---- a slide of debris on a DEM, 300 m by 100 m
 
@@ -43,14 +44,8 @@ config::Case debris_case(const std::function<double(double, double)>& ground, do
 
 sim::HistoryRow row_after(const config::Case& parameters) {
   sim::Simulation<3> simulation(parameters, load_site(parameters).site);
-  while (simulation.time() < parameters.time.end) {
-    simulation.step(simulation.next_step(parameters.time.end));
-  }
+  testing_support::run_until(simulation, parameters.time.end);
   return sim::history_row(simulation);
-}
-
-double value_in(const sim::HistoryRow& row, const std::string& name) {
-  return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
 }
 
 // ---- a slide down a valley that is uniform along y except for its walls
@@ -84,8 +79,8 @@ TEST(SubstratesOfMaps, PolygonsRasterAndStripGiveTheSameBits) {
     EXPECT_TRUE(along_x[k].second == in_polygon[k].second || std::isnan(along_x[k].second)) << along_x[k].first;
     EXPECT_TRUE(along_x[k].second == in_raster[k].second || std::isnan(along_x[k].second)) << along_x[k].first;
   }
-  EXPECT_GT(value_in(along_x, "front_position_m"), west + border + 20.0) << "the slide must have reached it";
-  EXPECT_GT(value_in(along_x, "mean_velocity_m_s"), value_in(without, "mean_velocity_m_s") + 0.2);
+  EXPECT_GT(value_of(along_x, "front_position_m"), west + border + 20.0) << "the slide must have reached it";
+  EXPECT_GT(value_of(along_x, "mean_velocity_m_s"), value_of(without, "mean_velocity_m_s") + 0.2);
 }
 
 TEST(SubstratesOfMaps, ReportTheirAreaAndAreCopiedWithTheRun) {
@@ -213,9 +208,9 @@ std::string depth_file(const std::function<double(double, double)>& depth, int c
 }
 
 TEST(BedOfMaps, UniformRasterIsEqualToTheNumber) {
-  const double of_number = value_in(row_after(slide_over_bed("1.5")), "entrained_mass_kg");
+  const double of_number = value_of(row_after(slide_over_bed("1.5")), "entrained_mass_kg");
   depth_file([](double, double) { return 1.5; });
-  const double of_raster = value_in(row_after(slide_over_bed("{ raster = \"depth.tif\" }")), "entrained_mass_kg");
+  const double of_raster = value_of(row_after(slide_over_bed("{ raster = \"depth.tif\" }")), "entrained_mass_kg");
   EXPECT_GT(of_number, 1e5);
   EXPECT_NEAR(of_raster / of_number, 1.0, 1e-6);
 }

@@ -104,13 +104,16 @@ Raster times(Raster raster, double factor) {
   return raster;
 }
 
+Raster square(const std::string& crs = "EPSG:31287") {
+  const auto thickness = [](double x, double y) {
+    return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
+  };
+  return raster_of(thickness, west, south, 5.0, 201, 161, crs);
+}
+
 // The release is the same for all units of the ground and the thickness.
 TEST(ValueUnitTest, VolumesAreTheSameInEveryUnit) {
-  const Raster thickness = raster_of(
-      [](double x, double y) {
-        return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
-      },
-      west, south, 5.0, 201, 161);
+  const Raster thickness = square();
   for (const auto& [unit, metres] : {std::pair("ft", 0.3048), {"cm", 0.01}, {"dm", 0.1}, {"km", 1000.0}}) {
     config::Case parameters = plain_case(ground());
     write_geotiff(parameters.terrain.file, times(ground(), 1.0 / metres), {unit, "elevation"});
@@ -128,11 +131,7 @@ TEST(ValueUnitTest, VolumesAreTheSameInEveryUnit) {
 }
 
 TEST(ValueUnitTest, CompoundSystemsUseTheirHorizontalPart) {
-  const Raster thickness = raster_of(
-      [](double x, double y) {
-        return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
-      },
-      west, south, 5.0, 201, 161, "EPSG:31287+6360");
+  const Raster thickness = square("EPSG:31287+6360");
   config::Case parameters = plain_case(ground());
   parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
   write_geotiff(in_folder("thickness.tif"), times(thickness, 3937.0 / 1200.0), {"", "thickness"});

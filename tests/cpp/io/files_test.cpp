@@ -14,7 +14,6 @@
 #include "io/hdf5_file.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
-#include "io/run_folder.hpp"
 #include "io/sha256.hpp"
 #include "io/snapshot.hpp"
 #include "io/snapshot_series.hpp"
@@ -136,48 +135,8 @@ TEST_F(Files, CheckpointIsReadBackForAnyStorageOrder) {
   EXPECT_EQ(read_file(folder_ / checkpoint_name), read_file(folder_ / previous_checkpoint_name));
 }
 
-TEST_F(Files, DamagedCheckpointsAreRefused) {
-  mpm::Particles<2> particles;
-  fill(particles);
-  write_checkpoint<2>(folder_, particles, particles.size(), {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
-  const std::filesystem::path file = folder_ / checkpoint_name;
-  const std::string good = read_file(file);
-  const auto expect_damage = [&](std::string_view invalid) {
-    write_file_atomically(file, invalid);
-    const std::string message = failure_of([&] { (void)newest_checkpoint(folder_); });
-    EXPECT_NE(message.find("is damaged: its checksum does not fit"), std::string::npos) << message;
-  };
-  std::mt19937 random(5);
-  for (int k = 0; k < 200; ++k) {
-    std::string invalid = good;
-    invalid[random() % invalid.size()] ^= static_cast<char>(1 + random() % 255);
-    expect_damage(invalid);
-  }
-  for (const std::size_t left : {good.size() / 2, good.size() - 1, std::size_t{32}, std::size_t{1}, std::size_t{0}}) {
-    expect_damage(std::string_view(good).substr(0, left));
-  }
-}
-
-// The previous checkpoint is always intact, also while the last one is being written; the warning says so.
-TEST_F(Files, ADamagedCheckpointIsReplacedByThePreviousOne) {
-  mpm::Particles<2> particles, loaded;
-  fill(particles);
-  loaded.resize(particles.size());
-  const std::filesystem::path last = folder_ / checkpoint_name, before = folder_ / previous_checkpoint_name;
+TEST_F(Files, AFolderWithoutACheckpointIsReported) {
   EXPECT_NE(failure_of([&] { (void)newest_checkpoint(folder_); }).find("holds no checkpoint.bin"), std::string::npos);
-  write_checkpoint<2>(folder_, particles, particles.size(), {1.0});
-  EXPECT_FALSE(std::filesystem::exists(before));
-  write_checkpoint<2>(folder_, particles, particles.size(), {2.0});
-  EXPECT_EQ(newest_checkpoint(folder_).file, last);
-  EXPECT_EQ(newest_checkpoint(folder_).warning, "");
-  write_file_atomically(last, "torn");
-  const WholeCheckpoint found = newest_checkpoint(folder_);
-  EXPECT_EQ(found.warning, last.string() + " is damaged: its checksum does not fit its 4 bytes");
-  std::vector<double> scalars;
-  read_checkpoint<2>(found, loaded, scalars);
-  EXPECT_EQ(scalars, std::vector<double>{1.0});
-  std::filesystem::remove(last);
-  EXPECT_EQ(newest_checkpoint(folder_).file, before);
 }
 
 TEST_F(Files, ACheckpointOfAnotherRunIsRefused) {
@@ -188,14 +147,6 @@ TEST_F(Files, ACheckpointOfAnotherRunIsRefused) {
   std::vector<double> scalars;
   const std::string message = failure_of([&] { read_checkpoint<2>(newest_checkpoint(folder_), loaded, scalars); });
   EXPECT_NE(message.find("has particles at t = 0: 37; this run needs 36"), std::string::npos) << message;
-}
-
-TEST_F(Files, UnfinishedFilesAreRemoved) {
-  write_file_atomically(folder_ / "whole.csv", "whole");
-  std::ofstream(folder_ / ".whole.csv.17.thawslide-part") << "who";
-  remove_unfinished_files(folder_);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "whole.csv"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / ".whole.csv.17.thawslide-part"));
 }
 
 TEST_F(Files, SnapshotsAreSortedByIdAndReproducible) {
@@ -222,25 +173,6 @@ TEST_F(Files, SnapshotsAreSortedByIdAndReproducible) {
     const auto id = static_cast<std::size_t>(particles.id(p));
     EXPECT_DOUBLE_EQ(first.points[3 * id + 1], particles.position(p, 1) - 50.0);
   }
-}
-
-TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
-  make_run_folder(folder_ / "deep" / "run", false);
-  write_file_atomically(folder_ / "deep" / "run" / "run.json", R"({"program": "thawslide"})");
-  write_file_atomically(folder_ / "deep" / "run" / "history.csv", "time_s\n");
-  write_file_atomically(folder_ / "deep" / "run" / "notes.txt", "mine");
-  const std::string message = failure_of([&] { require_usable(folder_ / "deep" / "run", false); });
-  EXPECT_NE(message.find("contains another run. Specify another --output, or replace that run with --overwrite"),
-            std::string::npos)
-      << message;
-  make_run_folder(folder_ / "deep" / "run", true);
-  EXPECT_FALSE(fs::exists(folder_ / "deep" / "run" / "history.csv"));
-  EXPECT_TRUE(fs::exists(folder_ / "deep" / "run" / "notes.txt")) << "other files are kept";
-  EXPECT_NE(
-      failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("contains other files, and no run"),
-      std::string::npos);
-  EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run" / "notes.txt" / "x", false); }).find("is a file"),
-            std::string::npos);
 }
 
 TEST_F(Files, SnapshotContainsTheBaseAndTheParticles) {

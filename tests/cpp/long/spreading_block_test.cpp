@@ -1,20 +1,11 @@
 // A cohesionless block that spreads over level ground, on a grid line and between two.
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include "../support/base_cases.hpp"
 #include "../support/mass_spread.hpp"
-#include "../support/record.hpp"
-#include "sim/simulation.hpp"
+#include "../verification/verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using sim::Simulation;
-
-const testing_support::Variant block{
+const Variant block{
     "block",
     "time.end=16; time.step=0.09; grid.cell=20; grid.min=[-1000,-40]; grid.max=[1000,160]; "
     "material.rock.law=mohr_coulomb; material.rock.youngs_modulus=5e7; material.rock.friction_angle=35; "
@@ -26,12 +17,12 @@ const testing_support::Variant block{
 // Standard deviation of the mass along x after 16 s [m]. The ground lies `above` of a cell above a grid line.
 double spread(double cell, double above) {
   const double ground = above * cell, top = ground + 40.0;
-  Simulation<2> simulation(testing_support::case_from_text(
+  Simulation<2> simulation(case_from_text(
       block, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.5e-3 * cell),
               fmt::format("terrain.elevation={}", ground),
               fmt::format("body.block.vertices=[[-100.0,{0}],[100.0,{0}],[100.0,{1}],[-100.0,{1}]]", ground, top)}));
-  testing_support::run_until(simulation, 16.0);
-  return testing_support::mass_spread(simulation);
+  run_until(simulation, 16.0);
+  return mass_spread(simulation);
 }
 
 // A known limitation (docs/theory/contact.md): the contact condition also applies to the node above ground between

@@ -3,20 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "../support/fields.hpp"
 #include "../support/messages.hpp"
+#include "../support/reproducible_runs.hpp"
 #include "../support/two_bodies.hpp"
-#include "base/parallel.hpp"
-#include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "sim/end_state.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -62,33 +57,11 @@ std::vector<NewParticle<Dim>> some_particles(const Simulation<Dim>& simulation, 
   return some;
 }
 
-// Final state of the run, and maxima recorded during the run.
-struct Seen {
-  std::map<std::string, std::vector<double>> state;
-  HistoryRow row;
-  double mass = 0.0, momentum = 0.0, heat = 0.0;  // maximum relative residuals of the budgets
-};
-
-template <int Dim>
-void record_residuals(const Simulation<Dim>& simulation, Seen& seen) {
-  const HistoryRow row = history_row(simulation);
-  const double mass = simulation.budget().initial_mass;
-  const auto update = [](double& largest, double fraction) { largest = std::max(largest, std::abs(fraction)); };
-  update(seen.mass, value_of(row, "mass_residual_kg") / mass);
-  update(seen.mass,
-         (value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg") - value_of(row, "mass_kg")) /
-             mass);
-  for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
-    update(seen.momentum, value_of(row, "momentum_residual_" + axis + "_N_s") / (mass * 20.0));
-  }
-  update(seen.heat,
-         value_of(row, "thermal_residual_J") / (std::abs(value_of(row, "sensible_J")) + value_of(row, "latent_J")));
-}
-
 // Ids are unique, and rows are in their order.
 template <int Dim>
-void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined, std::size_t left) {
+void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined) {
   const auto& particles = simulation.particles();
+  const auto left = static_cast<std::size_t>(simulation.removed().left);
   EXPECT_EQ(particles.size(), simulation.particles_at_start() + joined - left);
   EXPECT_GT(left, 0U);
   const io::Snapshot snapshot = io::make_snapshot<Dim>(particles, simulation.model().origin, 0.0, 0);
@@ -107,65 +80,25 @@ void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined, 
   }
 }
 
-// Particles are added twice during the run. stop: time step before which the run stops and resumes from its checkpoint;
-// -1: no stop.
-template <int Dim>
-Seen run(const Sets& sets, int threads, int interval, int stop) {
-  const int threads_before = thread_count();
-  set_thread_count(threads);
-  const config::Case parameters = leaving_bodies<Dim>(sets);
-  auto simulation = std::make_unique<Simulation<Dim>>(parameters);
-  simulation->set_sorting_interval(interval);
-  Seen seen;
-  std::size_t joined = 0, left = 0;
-  for (int k = 0; k < steps<Dim>; ++k) {
-    for (const bool behind : {true, false}) {
-      if (k == (behind ? steps<Dim> / 5 : 3 * steps<Dim> / 5)) {
-        const auto joining = some_particles(*simulation, behind);
-        simulation->append(joining);
-        joined += joining.size();
-        record_residuals(*simulation, seen);
-      }
-    }
-    if (k == stop) {
-      const auto folder = folder_of_this_test();
-      io::write_checkpoint<Dim>(folder, simulation->particles(), simulation->particles_at_start(),
-                                simulation->scalars());
-      simulation = std::make_unique<Simulation<Dim>>(parameters);
-      simulation->set_sorting_interval(interval);
-      std::vector<double> scalars;
-      io::read_checkpoint<Dim>(io::newest_checkpoint(folder), simulation->particles(), scalars);
-      simulation->restore(scalars);
-    }
-    const std::size_t before = simulation->particles().size();
-    simulation->step(simulation->next_step(1.0));
-    left += before - simulation->particles().size();
-    record_residuals(*simulation, seen);
-  }
-  expect_ids_and_rows(*simulation, joined, left);
-  seen.state = state_of(*simulation);
-  seen.row = history_row(*simulation);
-  set_thread_count(threads_before);
-  return seen;
-}
-
+// Particles are added twice during the run.
 template <int Dim>
 void expect_sound_runs(const Sets& sets) {
-  const Seen first = run<Dim>(sets, 1, 0, -1);
-  EXPECT_LT(first.mass, 1e-13);
-  EXPECT_LT(first.momentum, 1e-13);
-  EXPECT_LT(first.heat, 1e-13);
-  constexpr int joins = 3 * steps<Dim> / 5;
-  for (const auto& [threads, interval, stop] :
-       {std::tuple(2, 7, -1), std::tuple(1, 3, joins - 5), std::tuple(2, 1, joins)}) {
-    const Seen other = run<Dim>(sets, threads, interval, stop);
-    const auto when = fmt::format("{} threads, sorted every {} steps, stopped at {}", threads, interval, stop);
-    expect_the_same_state(first.state, other.state, when);
-    for (std::size_t k = 0; k < first.row.size(); ++k) {
-      EXPECT_EQ(std::memcmp(&first.row[k].second, &other.row[k].second, sizeof(double)), 0)
-          << first.row[k].first << ", " << when;
+  const config::Case parameters = leaving_bodies<Dim>(sets);
+  constexpr int first = steps<Dim> / 5, second = 3 * steps<Dim> / 5;
+  const auto visit = [](Simulation<Dim>& simulation, int step) {
+    if (step == first || step == second) {
+      simulation.append(some_particles(simulation, step == first));
     }
-  }
+    expect_closed_budgets(simulation);
+    const HistoryRow row = history_row(simulation);
+    const double phases = value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg");
+    EXPECT_NEAR((phases - value_of(row, "mass_kg")) / simulation.budget().initial_mass, 0.0, 1e-13);
+    if (step == steps<Dim>) {
+      expect_ids_and_rows(simulation, 24);
+    }
+  };
+  expect_reproducible_run<Dim>([&] { return std::make_unique<Simulation<Dim>>(parameters); }, steps<Dim>,
+                               {{2, 7, -1}, {1, 3, second - 5}, {2, 1, second}}, visit);
 }
 
 TEST(Append, BalancesCloseAndResultsAreReproducibleInThePlane) { expect_sound_runs<2>({}); }

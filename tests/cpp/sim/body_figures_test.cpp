@@ -27,6 +27,13 @@ std::vector<BodyFigures> figures_of(const Variant& variant, const Sets& sets = {
   return body_figures(Simulation<2>(case_from_text(variant, sets)));
 }
 
+// The only warning about the bodies of a case.
+void expect_warning(const Sets& sets, const std::vector<BodyFigures>& bodies, const std::string& part) {
+  const auto warnings = body_warnings(case_from_text(step, sets), bodies);
+  ASSERT_EQ(warnings.size(), 1U);
+  expect_in(warnings.front(), part);
+}
+
 TEST(BodyFigures, AreThoseOfTheBody) {
   const std::vector<BodyFigures> bodies = figures_of(step);
   ASSERT_EQ(bodies.size(), 1U);
@@ -103,12 +110,10 @@ TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
   const Sets sets = strong +
                     "material.rock.friction_angle=35; material.rock.residual_friction_angle=30; "
                     "material.rock.softening_slip=0.001";
-  const auto warnings = body_warnings(case_from_text(step, sets), figures_of(step, sets));
-  ASSERT_EQ(warnings.size(), 1U);
-  expect_in(warnings.front(),
-            "material.rock.softening_slip is 0.001 m: in a cell of 1 m the strength falls faster "
-            "than the elastic strain can follow, and breaking depends on grid.cell. Set grid.cell to at "
-            "most ");
+  expect_warning(sets, figures_of(step, sets),
+                 "material.rock.softening_slip is 0.001 m: in a cell of 1 m the strength falls faster "
+                 "than the elastic strain can follow, and breaking depends on grid.cell. Set grid.cell to at "
+                 "most ");
 }
 
 // If cohesion is constant and friction decreases, the radius of Mohr's circle may grow, and no energy is released.
@@ -124,11 +129,9 @@ TEST(BodyFigures, ReportTheClearanceAboveTheGround) {
   const std::vector<BodyFigures> bodies = figures_of(step, {"terrain.elevation=-0.75"});
   EXPECT_NEAR(bodies.front().clearance, 1.75, 1e-12);
   EXPECT_EQ(bodies.front().resting_fraction, 0.0);
-  const auto warnings = body_warnings(case_from_text(step), bodies);
-  ASSERT_EQ(warnings.size(), 1U);
-  expect_in(warnings.front(),
-            "body.block floats: its underside is 1.75 m above what is below it, and it falls for "
-            "0.6 s before it touches. Place it on that");
+  expect_warning({}, bodies,
+                 "body.block floats: its underside is 1.75 m above what is below it, and it falls for "
+                 "0.6 s before it touches. Place it on that");
 }
 
 TEST(BodyFigures, ReportTheVolumeErrorOfTheLattice) {
@@ -136,11 +139,9 @@ TEST(BodyFigures, ReportTheVolumeErrorOfTheLattice) {
   const std::vector<BodyFigures> bodies = figures_of(step, lower);
   EXPECT_NEAR(bodies.front().shape_volume, 38.4, 1e-12);
   EXPECT_NEAR(bodies.front().volume, 40.0, 1e-12);
-  const auto warnings = body_warnings(case_from_text(step, lower), bodies);
-  ASSERT_EQ(warnings.size(), 1U);
-  expect_in(warnings.front(),
-            "body.block has 38.4 m3 per m of width; its particles, 0.5 m apart, have 40, 4.2 % more. "
-            "Place its corners at multiples of that distance, or use a smaller grid.cell.");
+  expect_warning(lower, bodies,
+                 "body.block has 38.4 m3 per m of width; its particles, 0.5 m apart, have 40, 4.2 % more. "
+                 "Place its corners at multiples of that distance, or use a smaller grid.cell.");
 }
 
 // A box with its lower left corner on a slope of 45 degrees: the first of its 24 columns is within half a metre of the

@@ -83,7 +83,19 @@ TEST_F(CheckpointDamage, OfAnySingleByteIsDetectedAndThePreviousCheckpointIsUsed
     ASSERT_EQ(found.warning, damage_words(last_, bytes_of_last_.size())) << "byte " << offset;
     put(last_, offset, bytes_of_last_[offset]);
   }
-  EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_last_);
+  const io::WholeCheckpoint last = io::newest_checkpoint(folder_);
+  EXPECT_EQ(last.file, last_);
+  EXPECT_EQ(last.bytes, bytes_of_last_);
+  EXPECT_EQ(last.warning, "");
+}
+
+TEST_F(CheckpointDamage, OfATruncatedFileIsDetected) {
+  for (const std::size_t left :
+       {bytes_of_last_.size() - 1, bytes_of_last_.size() / 2, std::size_t{32}, std::size_t{1}, std::size_t{0}}) {
+    fs::resize_file(last_, left);
+    EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_previous_);
+    EXPECT_EQ(io::newest_checkpoint(folder_).warning, damage_words(last_, left));
+  }
 }
 
 TEST_F(CheckpointDamage, OfBothGenerationsIsRefused) {

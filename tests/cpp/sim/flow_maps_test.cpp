@@ -54,42 +54,29 @@ mpm::CellRange cells_below(double middle, double half) {
   return mpm::cell_spans(Simd<double>(middle), Simd<double>(half), Simd<double>(0.5 / half), 10).of_lane(0);
 }
 
+void expect_range(const mpm::CellRange& found, int first, const std::vector<double>& fractions) {
+  ASSERT_EQ(found.first, first);
+  ASSERT_EQ(found.last, first + static_cast<int>(fractions.size()) - 1);
+  for (std::size_t k = 0; k < fractions.size(); ++k) {
+    EXPECT_NEAR(found.fraction(first + static_cast<int>(k)), fractions[k], fractions.size() > 1 ? 1e-15 : 0.0);
+  }
+}
+
 TEST(CellRange, FractionsFollowFromTheBoxAndSumToOne) {
-  const mpm::CellRange within = cells_below(2.5, 0.25);
-  EXPECT_EQ(within.first, 2);
-  EXPECT_EQ(within.last, 2);
-  EXPECT_EQ(within.fraction(2), 1.0);
-  const mpm::CellRange across = cells_below(3.1, 0.5);
-  EXPECT_EQ(across.first, 2);
-  EXPECT_EQ(across.last, 3);
-  EXPECT_NEAR(across.fraction(2), 0.4, 1e-15);
-  EXPECT_NEAR(across.fraction(3), 0.6, 1e-15);
-  const mpm::CellRange wide = cells_below(4.25, 1.5);
-  EXPECT_EQ(wide.first, 2);
-  EXPECT_EQ(wide.last, 5);
-  EXPECT_NEAR(wide.fraction(2), 0.25 / 3.0, 1e-15);
-  EXPECT_NEAR(wide.fraction(3), 1.0 / 3.0, 1e-15);
-  EXPECT_NEAR(wide.fraction(5), 0.75 / 3.0, 1e-15);
+  expect_range(cells_below(2.5, 0.25), 2, {1.0});
+  expect_range(cells_below(3.1, 0.5), 2, {0.4, 0.6});
+  expect_range(cells_below(4.25, 1.5), 2, {0.25 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.75 / 3.0});
 }
 
 TEST(CellRange, ABoxThatEndsAtABorderDoesNotCrossIt) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
-    const mpm::CellRange span = cells_below(2.5 + off, 0.5);
-    EXPECT_EQ(span.first, 2);
-    EXPECT_EQ(span.last, 2);
+    expect_range(cells_below(2.5 + off, 0.5), 2, {1.0});
   }
 }
 
 TEST(CellRange, PartsOutsideTheGridAreAssignedToItsEdge) {
-  const mpm::CellRange left = cells_below(0.2, 0.5);
-  EXPECT_EQ(left.first, 0);
-  EXPECT_EQ(left.last, 0);
-  EXPECT_EQ(left.fraction(0), 1.0);
-  const mpm::CellRange right = cells_below(9.2, 1.0);
-  EXPECT_EQ(right.first, 8);
-  EXPECT_EQ(right.last, 9);
-  EXPECT_NEAR(right.fraction(8), 0.4, 1e-15);
-  EXPECT_NEAR(right.fraction(9), 0.6, 1e-15);
+  expect_range(cells_below(0.2, 0.5), 0, {1.0});
+  expect_range(cells_below(9.2, 1.0), 8, {0.4, 0.6});
 }
 
 TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {

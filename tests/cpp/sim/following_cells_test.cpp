@@ -3,54 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 #include "../support/channel_on_dem.hpp"
-#include "../support/fields.hpp"
 #include "../support/following_plane.hpp"
-#include "base/parallel.hpp"
-#include "io/checkpoint.hpp"
+#include "../support/reproducible_runs.hpp"
 
 namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
 
-// State after some steps. stop: time step before which the run stops and resumes from its checkpoint; -1: no stop.
-template <int Dim, class Make>
-std::map<std::string, std::vector<double>> state_after(const Make& make, int steps, int threads, int interval,
-                                                       int stop) {
-  const int threads_before = thread_count();
-  set_thread_count(threads);
-  std::unique_ptr<Simulation<Dim>> simulation = make();
-  simulation->set_sorting_interval(interval);
-  for (int k = 0; k < steps; ++k) {
-    if (k == stop) {
-      const auto folder = folder_of_this_test();
-      io::write_checkpoint<Dim>(folder, simulation->particles(), simulation->particles_at_start(),
-                                simulation->scalars());
-      simulation = make();
-      simulation->set_sorting_interval(interval);
-      std::vector<double> scalars;
-      io::read_checkpoint<Dim>(io::newest_checkpoint(folder), simulation->particles(), scalars);
-      simulation->restore(scalars);
-    }
-    simulation->step(simulation->next_step(100.0));
-  }
-  (void)simulation->next_step(100.0);  // locates the particles
-  auto state = state_of(*simulation);
-  set_thread_count(threads_before);
-  return state;
-}
-
 template <int Dim, class Make>
 void expect_the_same_bits(const Make& make, int steps) {
-  const auto first = state_after<Dim>(make, steps, 1, 0, -1);
-  for (const auto& [threads, interval, stop] :
-       {std::tuple(2, 7, -1), std::tuple(3, 1, steps / 2), std::tuple(4, 3, steps - 1)}) {
-    expect_the_same_state(first, state_after<Dim>(make, steps, threads, interval, stop),
-                          fmt::format("{} threads, sorted every {} steps, stopped at {}", threads, interval, stop));
-  }
+  expect_reproducible_run<Dim>(make, steps, {{2, 7, -1}, {3, 1, steps / 2}, {4, 3, steps - 1}},
+                               [](const Simulation<Dim>& /*simulation*/, int /*step*/) {});
 }
 
 TEST(FollowingCells, ResultsAreReproducibleInThePlane) {

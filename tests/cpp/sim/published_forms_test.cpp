@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../support/base_cases.hpp"
+#include "../support/fields.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
@@ -22,15 +23,6 @@ const Variant bar{
     "material.bar.hydraulic_conductivity=1e-9; body.bar.max=[2,0.4]; body.bar.temperature=1; mechanics.enabled=true; "
     "pressure.enabled=true"};
 
-std::vector<double> by_id(Simulation<2>& simulation, mpm::Field<double, 1> mpm::Particles<2>::*field) {
-  auto& particles = simulation.particles();
-  std::vector<double> values(particles.size());
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    values[static_cast<std::size_t>(particles.id(p))] = (particles.*field)(p);
-  }
-  return values;
-}
-
 TEST(SeepageScaling, PublishedIsSlowerByXi) {
   const auto seep = [&](const std::string& scaling, double step, double end) {
     Simulation<2> simulation(
@@ -41,7 +33,7 @@ TEST(SeepageScaling, PublishedIsSlowerByXi) {
       particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
     }
     run_until(simulation, end);
-    return by_id(simulation, &mpm::Particles<2>::pore_pressure);
+    return fields_by_id(simulation.particles()).at("pore_pressure");
   };
   const auto published = seep("published", 0.8, 40.0);
   const auto consistent = seep("consistent", 0.1, 5.0);
@@ -139,7 +131,7 @@ TEST(EffectiveStress, SoftensLikeTotalStress) {
   auto& particles = simulation.particles();
   std::size_t yielded = 0, softened = 0, beyond_by_total_stress = 0;
   for (int step = 0; step < 10; ++step) {
-    const std::vector<double> before = by_id(simulation, &mpm::Particles<2>::plastic_strain);
+    const std::vector<double> before = fields_by_id(simulation.particles()).at("plastic_strain");
     simulation.step(0.001);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const double plastic_strain = before[static_cast<std::size_t>(particles.id(p))];

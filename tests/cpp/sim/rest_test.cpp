@@ -101,9 +101,7 @@ TEST(Rest, IsNotDetectedBeforeTheSlideHasMoved) {
 TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
   const auto state_at = [&](double end, const std::string& set) {
     Simulation<2> simulation(paper_case(endless, set));
-    while (simulation.time() < end - 1e-9) {
-      simulation.step(simulation.next_step(end));
-    }
+    run_until(simulation, end);
     return end_state<2>(simulation, false);
   };
   const EndState still = state_at(0.5, "body.block.velocity=[0.0,0.0]");

@@ -3,7 +3,6 @@
 
 #include "../support/fields.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "base/parallel.hpp"
 #include "sim/release_body.hpp"
 
 namespace thawslide::sim {
@@ -150,19 +149,6 @@ TEST(StartingNoise, KeepsAReleaseBetweenTheGroundAndItsTop) {
   EXPECT_GT(kept, 0U);
   EXPECT_LT(kept, count / 3);
   EXPECT_EQ(displaced.at("mass"), regular.at("mass"));
-}
-
-TEST(StartingNoise, GivesBitwiseIdenticalRunsOnAnyThreads) {
-  const int threads_before = thread_count();
-  std::vector<Fields> ends;
-  for (const int threads : {1, 2}) {
-    set_thread_count(threads);
-    auto simulation = on_slope(noise(0.1, 7));
-    run_until(simulation, 0.02);
-    ends.push_back(fields_of(simulation));
-  }
-  set_thread_count(threads_before);
-  EXPECT_EQ(ends[0], ends[1]);
 }
 
 }  // namespace

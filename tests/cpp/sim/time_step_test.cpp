@@ -21,9 +21,7 @@ const Variant block{
 
 TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
   Simulation<2> simulation(paper_case(block, "time.step=0.003; time.end=0.01"));
-  while (simulation.time() < 0.01) {
-    simulation.step(simulation.next_step(0.01));
-  }
+  run_until(simulation, 0.01);
   EXPECT_EQ(simulation.step_number(), 4);
   EXPECT_DOUBLE_EQ(simulation.time(), 0.01);
 }
@@ -121,9 +119,7 @@ TEST(TimeStep, IsShortEnoughWhenATornGapCloses) {
                  "body.second.max=[100.0, 50.0]; material.free.cohesion=1e3; body.block.velocity=[-3.0, 0.0]; "
                  "body.second.velocity=[3.0, 0.0]"));
   const double limit = simulation.step_limit().step;
-  while (simulation.time() < 2.0 - 1e-9) {
-    simulation.step(simulation.next_step(2.0));
-  }
+  run_until(simulation, 2.0);
   const double open = widest_gap(simulation);
   EXPECT_GT(open, 0.3);
   EXPECT_GT(simulation.step_limit().step, 0.98 * limit) << "open gaps do not shorten it";

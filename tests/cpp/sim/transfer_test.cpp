@@ -185,19 +185,5 @@ TEST(Transfer, BlendWithoutPicIsBitwiseIdenticalToFlip) {
   }
 }
 
-TEST(Transfer, ApicDoesNotDependOnParticlePositions) {
-  Simulation<2> seldom(block_with("quadratic", {"mechanics.transfer=apic"}));
-  Simulation<2> often(block_with("quadratic", {"mechanics.transfer=apic"}));
-  often.set_sorting_interval(1);
-  for (Simulation<2>* simulation : {&seldom, &often}) {
-    stir(*simulation, 3.0, 0.0, 0.0);
-    run_until(*simulation, 0.1);
-  }
-  const auto first = positions_by_id(seldom), second = positions_by_id(often);
-  for (std::size_t p = 0; p < first.size(); ++p) {
-    EXPECT_EQ(first[p], second[p]);
-  }
-}
-
 }  // namespace
 }  // namespace thawslide::sim

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "../support/base_cases.hpp"
+#include "../support/fields.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -277,11 +278,7 @@ TEST(SkeletonCompressibility, SlowsDiffusionByTheStorage) {
     while (simulation.time() < time * (1.0 - 1e-9)) {
       simulation.step(time / 200.0);
     }
-    std::vector<double> found(particles.size());
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      found[static_cast<std::size_t>(particles.id(p))] = particles.pore_pressure(p);
-    }
-    return found;
+    return fields_by_id(particles).at("pore_pressure");
   };
   const auto rigid = bump_after(0.0, 1.0), soft = bump_after(3.0 * storage, 4.0);
   for (std::size_t p = 0; p < rigid.size(); ++p) {

@@ -18,7 +18,7 @@ Raster small_block(const Place& centre) {
   return thickness_between(centre - half, centre + half, 1.25 / 16.0, [](double, double) { return 5.0; });
 }
 
-// Verifies the point mass used as reference with the closed form of the next test.
+// Verifies the point mass used as reference with a closed form.
 TEST(PointOnSurface, SwingsInTheBowl) {
   constexpr double radius = 100.0, friction = 0.2;
   const auto bowl = [](double x, double y) { return radius - std::sqrt(radius * radius - x * x - y * y); };
@@ -33,22 +33,9 @@ TEST(PointOnSurface, SwingsInTheBowl) {
   }
 }
 
-// A point on a circle of radius r, phi from the lowest point, v = -r dphi/dt > 0 on its way down, is pressed to it with
-// N = m (g cos phi + v^2/r), and m dv/dt = m g sin phi - mu N, so that
-//   d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2)
-// This is linear in v^2: with v = 0 at phi_0,
-//   v^2 = A sin phi + B cos phi - (A sin phi_0 + B cos phi_0) exp(2 mu (phi - phi_0)),
-//   A = 6 mu r g/(1 + 4 mu^2),  B = 2 r g (1 - 2 mu^2)/(1 + 4 mu^2)
 // The block has an extent: it is compared with a point at the same distance from the centre of the sphere as its centre
-// of mass.
-double speed_on_circle(double radius, double friction, double phi, double start) {
-  const double denominator = 1.0 + 4.0 * friction * friction;
-  const double sine = 6.0 * friction * radius * gravity / denominator;
-  const double cosine = 2.0 * radius * gravity * (1.0 - 2.0 * friction * friction) / denominator;
-  const double rest = (sine * std::sin(start) + cosine * std::cos(start)) * std::exp(2.0 * friction * (phi - start));
-  return std::sqrt(std::max(0.0, sine * std::sin(phi) + cosine * std::cos(phi) - rest));
-}
-
+// of mass. With phi from the lowest point, the point is pressed to its circle with N = m (g cos phi + v^2/r), so that
+//   d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2)
 TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
   constexpr double radius = 200.0, start = 40.0 * degree, azimuth = 205.0 * degree;
   Record record("A small block in a bowl",
@@ -80,7 +67,9 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
     now = CentreOfMass(simulation);
     curve.x.push_back(angle(now) / degree);
     curve.computed.push_back(now.velocity.norm());
-    curve.exact.push_back(speed_on_circle(from_centre(now).norm(), std::tan(10.0 * degree), angle(now), first));
+    const double r = from_centre(now).norm();
+    const physics::exact::ArcSlide exact{r, r, r * r, std::tan(10.0 * degree), gravity};
+    curve.exact.push_back(r * exact.angular_speed(angle(now), first));
     largest_aside = std::max(largest_aside, std::abs(along[0] * now.position[1] - along[1] * now.position[0]));
   }
   record.expect_near("speed at the lowest point over exact", curve.computed.back() / curve.exact.back(), 1.0, 0.02);

@@ -18,12 +18,12 @@ class SlidingBlock {
   explicit SlidingBlock(double cell, const std::string& material = "cohesion=0")
       : simulation_(body_on_plane(
             plane_, cell, {plane_.place(-100, 0), plane_.place(100, 0), plane_.place(100, 60), plane_.place(-100, 60)},
-            {"material.grains.youngs_modulus=5e8", "basal.friction_angle=20", "grid.max=[3000,400]",
-             "grid.min=[-700,-2000]", "material.grains." + material})) {
+            {"material.rock.youngs_modulus=5e8", "basal.friction_angle=20", "grid.max=[3000,400]",
+             "grid.min=[-700,-2000]", "material.rock." + material})) {
     run_until(simulation_, 20.0);
   }
 
-  [[nodiscard]] double growth() const { return Spread(simulation_, plane_).growth; }
+  [[nodiscard]] double growth() const { return volume_growth(simulation_); }
   // Standard deviation of the particles' velocities [m/s].
   [[nodiscard]] double noise() const {
     const auto& particles = simulation_.particles();

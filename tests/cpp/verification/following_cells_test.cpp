@@ -5,7 +5,7 @@
 #include <fstream>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "../support/small_terrain.hpp"
 #include "mpm/particle_pass.hpp"
@@ -40,16 +40,20 @@ std::shared_ptr<const terrain::Surface<Dim>> random_ground() {
   }
 }
 
+template <class ReadRecords, class AddedRecords>
+struct Kernel {
+  using Reads = ReadRecords;
+  using Adds = AddedRecords;
+  using Totals = mpm::NoTotals;
+};
+
 // Stores velocity and its gradient in the velocity and the affine velocity, and the temperature gradient in the
 // displacement.
 template <int Dim>
-struct ReadVelocity {
-  using Reads = mpm::RecordList<mpm::Velocity>;
-  using Adds = mpm::RecordList<>;
-  using Totals = mpm::NoTotals;
-
+struct ReadVelocity : Kernel<mpm::RecordList<mpm::Velocity>, mpm::RecordList<>> {
   template <class Particles, class At, class Seen, class Scatter>
-  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/, Totals& /*totals*/) const {
+  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/,
+                  mpm::NoTotals& /*totals*/) const {
     const auto read = seen.template read<mpm::Velocity, Dim>();
     const auto gradient = mpm::gradient_of(read);
     particles.affine_velocity.store_vector(at, gradient.reshaped());
@@ -59,27 +63,20 @@ struct ReadVelocity {
   }
 };
 template <int Dim>
-struct ReadTemperature {
-  using Reads = mpm::RecordList<mpm::NodalState>;
-  using Adds = mpm::RecordList<>;
-  using Totals = mpm::NoTotals;
-
+struct ReadTemperature : Kernel<mpm::RecordList<mpm::NodalState>, mpm::RecordList<>> {
   template <class Particles, class At, class Seen, class Scatter>
-  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/, Totals& /*totals*/) const {
+  void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& /*added*/,
+                  mpm::NoTotals& /*totals*/) const {
     const auto read = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
     particles.displacement.store_vector(at, mpm::gradient_of(read, 0));
   }
 };
 // Heat flow equal to the particles' displacement.
 template <int Dim>
-struct AddHeatFlow {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<mpm::HeatRates>;
-  using Totals = mpm::NoTotals;
-
+struct AddHeatFlow : Kernel<mpm::RecordList<>, mpm::RecordList<mpm::HeatRates>> {
   template <class Particles, class At, class Seen, class Scatter>
   void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& added,
-                  Totals& /*totals*/) const {
+                  mpm::NoTotals& /*totals*/) const {
     auto& rates = added.template of<mpm::HeatRates>();
     for (int a = 0; a < Dim; ++a) {
       rates.flux[a][mpm::HeatRates::conduction] = particles.displacement.load(at, a);
@@ -255,39 +252,12 @@ TEST(FollowingCells, RigidTranslationIsKept) {
       file << fmt::format("{},{}\n", 5.0 * k, 20.0 * std::sin(0.07 * 5.0 * k));
     }
   }
-  sim::Simulation<2> simulation(paper_case(R"(
-[case]
-gravity = 0.0
-[time]
-end = 10.0
-step = 0.004
-[grid]
-cell = 10.0
-follows_terrain = true
-min = [-100.0, -50.0]
-max = [600.0, 150.0]
-[terrain]
-type = "profile"
-file = "waves.csv"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-min = [0.0, 60.0]
-max = [60.0, 100.0]
-velocity = [40.0, 0.0]
-[mechanics]
-initial_stress = "none"
-[basal]
-friction = "constant"
-friction_angle = 0.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)"));
+  const std::string flying =
+      "time.end=10; time.step=0.004; grid.cell=10; grid.follows_terrain=true; grid.min=[-100,-50]; grid.max=[600,150]; "
+      "terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.poisson_ratio=0.2; "
+      "body.block.min=[0,60]; body.block.max=[60,100]; body.block.velocity=[40,0]; basal.friction=constant; "
+      "basal.friction_angle=0; terrain.file=";
+  sim::Simulation<2> simulation(published_case("free", flying + (folder_of_this_test() / "waves.csv").string()));
   run_until(simulation, 2.0);
   double change = 0.0, stress = 0.0;
   const auto& particles = simulation.particles();

@@ -1,26 +1,24 @@
 // Slides on planes with cells that follow the ground.
 #include "../support/following_plane.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <memory>
 
-#include "../support/record.hpp"
+#include "../support/mass_spread.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
 // Block of 200 m x 40 m on a plane, with gravity normal to it.
+struct Spread {
+  double along, growth;  // standard deviation of the mass along the plane [m], relative growth of the volume
+};
 Spread spread_of_block(const Incline& plane, double cell) {
   Simulation<2> simulation(body_on_plane(
       plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
-      {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.grains.viscosity_time=0.004"}));
+      {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.rock.viscosity_time=0.004"}));
   run_until(simulation, 16.0);
-  return Spread(simulation, plane);
+  return {mass_spread(simulation, plane.down()), volume_growth(simulation)};
 }
 
 TEST(FollowingPlane, BlockSpreadsAsOnAGridLine) {
@@ -46,12 +44,14 @@ class Slab {
  public:
   static constexpr double length = 400.0, thickness = 40.0, gravity = 9.81;  // [m], [m], [m/s2]
 
-  Slab(const Incline& plane, double cell, std::vector<std::string> sets) : plane_(plane) {
+  Slab(const Incline& plane, double cell, const Sets& sets) : plane_(plane) {
     const auto foot = plane.place(-0.5 * length, 0.0), toe = plane.place(0.5 * length, 0.0);
     const Vector<double, 2> up(0.0, thickness / std::cos(plane.angle()));
-    sets.insert(sets.end(), {"material.grains.law=elastic", "material.grains.youngs_modulus=5e8",
-                             "material.grains.viscosity_time=0.02", "mechanics.slope_shear=true"});
-    simulation_ = std::make_unique<Simulation<2>>(body_on_plane(plane, cell, {foot, toe, toe + up, foot + up}, sets));
+    const Sets elastic =
+        "material.rock.law=elastic; material.rock.youngs_modulus=5e8; material.rock.viscosity_time=0.02; "
+        "mechanics.slope_shear=true";
+    simulation_ =
+        std::make_unique<Simulation<2>>(body_on_plane(plane, cell, {foot, toe, toe + up, foot + up}, sets + elastic));
   }
 
   [[nodiscard]] Simulation<2>& simulation() { return *simulation_; }

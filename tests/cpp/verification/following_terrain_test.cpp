@@ -1,19 +1,11 @@
 // Cells that follow curved ground: channels, walls, a cliff and a pool.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
-#include <random>
 
 #include "../support/channel_on_dem.hpp"
-#include "../support/record.hpp"
-#include "sim/history.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-using namespace testing_support;
-using sim::Simulation;
 
 const Sets following = "grid.follows_terrain=true; time.stepping=adaptive";
 
@@ -43,57 +35,25 @@ void write_profile(const std::vector<std::pair<double, double>>& points) {
 }
 
 // Elastic block of 40 m x 20 m on frictionless ground, given by write_profile; its front is at x = 50 m.
-config::Case sliding_block(const std::vector<std::string>& sets) {
-  return paper_case(R"(
-[case]
-dimension = 2
-[time]
-end = 4.0
-stepping = "adaptive"
-[grid]
-cell = 5.0
-follows_terrain = true
-min = [-90.0, -300.0]
-max = [350.0, 80.0]
-[terrain]
-type = "profile"
-file = "profile.csv"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-viscosity_time = 0.01
-[body.block]
-material = "rock"
-min = [10.0, 0.0]
-max = [50.0, 20.0]
-velocity = [20.0, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 0.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                    sets);
+config::Case sliding_block(const Sets& sets) {
+  const std::string on_profile =
+      "time.end=4; time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.min=[-90,-300]; "
+      "grid.max=[350,80]; terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.viscosity_time=0.01; "
+      "body.block.min=[10,0]; body.block.max=[50,20]; body.block.velocity=[20,0]; basal.friction_angle=0; "
+      "terrain.file=";
+  return base_case("block", Sets(on_profile + (folder_of_this_test() / "profile.csv").string()) + sets);
 }
 
 struct Centre {
   Vector<double, 2> position = Vector<double, 2>::Zero(), velocity = Vector<double, 2>::Zero();
 
   explicit Centre(const Simulation<2>& simulation) {
-    const auto& particles = simulation.particles();
-    double mass = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      mass += particles.mass(p);
-      position += particles.mass(p) * particles.position.get<Vector<double, 2>>(p);
-      velocity += particles.mass(p) * particles.velocity.get<Vector<double, 2>>(p);
+    for (int a = 0; a < 2; ++a) {
+      const auto& particles = simulation.particles();
+      position[a] =
+          simulation.model().origin[a] + mass_mean(simulation, [&](auto p) { return particles.position(p, a); });
+      velocity[a] = mass_mean(simulation, [&](auto p) { return particles.velocity(p, a); });
     }
-    position = position / mass + simulation.model().origin;
-    velocity /= mass;
   }
 };
 

@@ -1,6 +1,7 @@
 // Heat is conserved, while ice melts in an insulated body and with heat from friction.
 #include <utility>
 
+#include "../support/fields.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
@@ -8,16 +9,6 @@ namespace {
 
 const Sets melting{"time.end=2e7; time.step=1e4; grid.cell=0.5; grid.max=[10,5]; body.bar.max=[10,5]",
                    "body.bar.temperature={ x = [0.0, 4.99, 5.01, 10.0], value = [30.0, 30.0, -3.0, -3.0] }"};
-
-// Heat content of particles, by id.
-std::vector<double> heat_contents(const Simulation<2>& simulation) {
-  const auto& particles = simulation.particles();
-  std::vector<double> contents(particles.size());
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    contents[static_cast<std::size_t>(particles.id(p))] = particles.heat_content(p);
-  }
-  return contents;
-}
 
 // Heat that particles have exchanged since the start [J].
 double heat_moved(const Simulation<2>& simulation, const std::vector<double>& start) {
@@ -42,7 +33,7 @@ TEST(HeatLedger, ClosesThroughMelting) {
       }
       return sum;
     };
-    const std::vector<double> start = heat_contents(simulation);
+    const std::vector<double> start = fields_by_id(std::as_const(simulation).particles()).at("heat_content");
     const double at_start = ice();
     run_until(simulation, 2e7);
     EXPECT_LT(ice(), 0.9 * at_start) << "ice must have melted for this to say much";
@@ -78,7 +69,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
         stirred += particles.initial_volume(p) * (particles.heat_content(p) - old);
       }
     });
-    const std::vector<double> start = heat_contents(simulation);
+    const std::vector<double> start = fields_by_id(std::as_const(simulation).particles()).at("heat_content");
     simulation.step(1.0);
     const double first = value_of(history_row(simulation), "advection_J");
     run_until(simulation, 4000.0);

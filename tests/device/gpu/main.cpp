@@ -166,10 +166,6 @@ bool print_numbers(const std::string& what, const std::vector<double>& of_cpu, c
   return well;
 }
 
-bool print_reductions(const std::string& when, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
-  return print_numbers(when + "looks at particles", of_cpu, of_gpu);
-}
-
 template <int Dim>
 bool compare_slides(const device::SolverFactory<Dim>& make, const device::SolverFactory<Dim>& make_again,
                     const Size& size) {
@@ -193,7 +189,9 @@ bool compare_slides(const device::SolverFactory<Dim>& make, const device::Solver
     gpu->copy_to(of_gpu.view());
     again->copy_to(of_second.view());
     const std::string when = dim + std::to_string(start.size()) + " particles, " + std::to_string(steps) + " steps, ";
-    well = (steps > 1 || print_reductions(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
+    well =
+        (steps > 1 || print_numbers(when + "looks at particles", looks(*processor, sums), looks(*gpu, of_this_gpu))) &&
+        well;
     // Round-off grows from step to step, so the tolerance applies only after the first one.
     const Comparison found = compare(of_cpu, of_gpu);
     well = report_line((when + "GPU against CPU").c_str(), found, false) || steps > 1 ? well : false;
@@ -221,7 +219,7 @@ bool compare_variant(const device::SolverFactory<Dim>& make, const Size& size, c
         (Dim == 2 ? "2D, " : "3D, ") + std::string(of.name) + ", " + std::to_string(steps) + " steps, ";
     well = (report_line((when + "GPU against CPU").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
     if (steps == 1) {
-      well = print_reductions(when, looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
+      well = print_numbers(when + "looks at particles", looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
       well =
           (specified->empty() || print_numbers(when + "what the CPU receives", *specified, *reported_by_gpu)) && well;
     }
