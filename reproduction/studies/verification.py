@@ -35,7 +35,7 @@ PROGRAMS = (
     (
         "test_long",
         "WholeIncline.*:FineVibration.*:PlanesOnDem.*:VChannelsOnDem.*:RoughDems.*:CylindricalColumns.*:"
-        "FineCylinderSection.*:FineBarCollapse.*:SpreadingBlock.*:SofteningSlope.*",
+        "FineCylinderSection.*:FineBarCollapse.*:SpreadingBlock.*:SofteningSlope.*:FollowingChannels.*",
     ),
 )
 QUICK = (("test_physics", "MohrCoulomb.ReturnSolves*"), ("test_terrain", "HeightField.ErrorsFall*"))
@@ -56,9 +56,9 @@ TOPICS = {
         "RoughDems LeavingDem HeightField ReleaseVolume",
     ),
     "Cells that follow the ground": (
-        "linear fields and rigid translation; slabs and spreading blocks on planes; V channels, walls, a cliff; the "
+        "linear fields and rigid translation; slabs and spreading blocks on planes; channels, walls, a cliff; the "
         "default viscosity",
-        "FollowingCells FollowingPlane FollowingTerrain DefaultViscosity",
+        "FollowingCells FollowingPlane FollowingTerrain FollowingChannels DefaultViscosity",
     ),
     "Spreading and collapse": (
         "thin-layer solutions of Ritter and of Savage and Hutter; laboratory experiments with bars and sand",
