@@ -16,7 +16,7 @@ _HISTORY, _BLOCK = "history.csv", "Table of the rigid block"  # sections of the 
 _ROW = re.compile(r"^\| (`[^|]*`) \|")
 _NAME = re.compile(r"`(\w+)`")
 _UNIT = re.compile(r"\[([^]]*)\]$")
-_TIMEOUT = 600.0  # seconds, after which the program hangs
+_TIMEOUT = 600.0  # seconds; longer is a hang
 
 
 def declared_columns(is_block: bool) -> list[str]:

@@ -17,8 +17,7 @@ TEST(FollowingChannels, HaveTheFrictionOfAWedge) {
   Record record("Cells that follow the ground: channels at several angles to the grid",
                 "A fill slides in a channel that falls by 35 degrees and is 8 cells of 5 m wide. The friction angle of "
                 "the ground is 15 degrees, and points of the DEM are 1.25 m apart. Mean from 1 to 3 s; a loose fill "
-                "settles first "
-                "in the narrow V: from 2 to 4 s.",
+                "settles first in the narrow V: from 2 to 4 s.",
                 "apparent friction over that of the ground = 1/sin(a), a half the opening angle of a V; 4/pi in a half "
                 "pipe",
                 "wedge in a groove");
