@@ -185,10 +185,10 @@ struct RunCost {
 // or empty if the user specified the cell.
 std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const RunCost& cost) {
   constexpr double fewest_timed_particles = 1000.0;
-  std::string purpose, others;
+  std::string errors, others;
   for (const config::ResolutionFacts& each : config::resolutions) {
     if (chosen == each.name) {
-      purpose = fmt::format("; {}", each.purpose);
+      errors = fmt::format("; {}", each.errors);
       continue;
     }
     const double cell =
@@ -196,12 +196,12 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
     const double seconds = cost.seconds * config::run_time_factor(proposal.cell, cell, 3);
     const bool is_timed = proposal.particles >= fewest_timed_particles;
     others += fmt::format("             --resolution {}: cells of {:g} m{}; {}\n", each.name, cell,
-                          is_timed ? ", about " + duration_text(seconds) : "", each.purpose);
+                          is_timed ? ", about " + duration_text(seconds) : "", each.errors);
   }
   return fmt::format(
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {} on {} "
       "thread{}\n{}",
-      chosen.empty() ? "" : chosen + ", ", proposal.cell, purpose, rounded_text(proposal.particles),
+      chosen.empty() ? "" : chosen + ", ", proposal.cell, errors, rounded_text(proposal.particles),
       rounded_text(cost.steps), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
 }
 

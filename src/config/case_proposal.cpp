@@ -182,7 +182,8 @@ BodyOnCells release_on_cells(const Proposal& proposal) {
           .thickness = proposal.median_thickness,
           .cell = proposal.cell,
           .particles_per_axis = proposal.particles_per_axis,
-          .has_maps = true};
+          .has_maps = true,
+          .follow_terrain = true};
 }
 
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell, Resolution resolution) {
@@ -284,7 +285,7 @@ dimension = 3  # x is east, y is north, z is up
 cell = {cell}  # m; {across}
 {maps}min = {min}
 max = {max}
-leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
+{follows}leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
 
 [terrain]
 type = "dem"
@@ -304,7 +305,8 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
 )",
       fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
       fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("across", cell_comment(proposal)), fmt::arg("maps", maps_comment(release_on_cells(proposal))),
+      fmt::arg("follows", follows_text()), fmt::arg("across", cell_comment(proposal)),
+      fmt::arg("maps", maps_comment(release_on_cells(proposal))),
       fmt::arg("confirmed", input.largest_volume > 0.0
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
@@ -331,6 +333,10 @@ history_interval = {}
                      number_text(proposal.output_interval / 5.0));
 }
 
+std::string follows_text() {
+  return "follows_terrain = true  # the ground is on a layer of nodes: areas are right on larger cells\n";
+}
+
 std::string cell_comment(const Proposal& proposal) {
   return fmt::format("two particles a cell and axis make {:.1f} across a thickness of {} m",
                      proposal.thickness * proposal.particles_per_axis / proposal.cell,
@@ -346,7 +352,10 @@ porosity = 0.375  # volume fraction of ice: all pores are full of it
 }
 
 std::string physics_text() {
-  return R"(# Broken rock and ice.
+  return R"([mechanics]
+transfer = "apic"  # particle velocities without noise: the slide comes to rest, and swells less than with "flip"
+
+# Broken rock and ice.
 [material.rock_ice]
 law = "mohr_coulomb"
 youngs_modulus = 1.0e8
@@ -354,7 +363,6 @@ poisson_ratio = 0.2
 friction_angle = 35.0
 cohesion = 1.0e3
 gaps_close_first = true  # separated material carries no load until its gap closes
-viscosity_number = 0.1  # numerical viscosity, proportional to the cell size; with less, loose material swells
 hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays under pressure
 
 # The base. Sliding heats a shear band, its ice melts, friction falls, and the meltwater carries part of the weight.

@@ -70,13 +70,16 @@ void propose_times(Proposal& proposal, double farthest);
 // and travels farther than that. Empty otherwise.
 [[nodiscard]] std::string edge_warning(const Proposal& proposal);
 
+// Line of [grid] that makes the cells follow the terrain.
+[[nodiscard]] std::string follows_text();
+
 // Number of particles across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);
 
 // Last keys of the body: particles and initial state.
 [[nodiscard]] std::string body_state_text(const Proposal& proposal);
 
-// Tables of material, base and band.
+// Tables of transfer, material, base and band.
 [[nodiscard]] std::string physics_text();
 
 }  // namespace thawslide::config

@@ -10,9 +10,11 @@
 
 namespace thawslide::config {
 
-inline constexpr double fewest_particles = 4.0;    // across the thickness, for shear and thinning
-inline constexpr double proposed_particles = 6.0;  // default of `thawslide new`
-inline constexpr double cells_for_maps = 8.0;      // across the thickness, for thickness and area of the deposit
+inline constexpr double fewest_particles = 4.0;  // across the thickness, for shear and thinning
+
+// Cells across the thickness for maps: the area of the deposit of a slide on a plane is then 4 % too small on cells
+// that follow the terrain, and 14 % on level cells (docs/refinement.md).
+[[nodiscard]] constexpr double cells_for_maps(bool follow_terrain) { return follow_terrain ? 4.0 : 8.0; }
 
 struct BodyOnCells {
   std::string name;
@@ -21,6 +23,7 @@ struct BodyOnCells {
   int particles_per_axis = 2;
   int dimension = 3;
   bool has_maps = false;  // whether the user asks for maps
+  bool follow_terrain = false;
 };
 
 // Every 3D run writes maps. A case that sets maps.cell or maps.arrival_thickness needs them to be accurate. maps.path
@@ -43,24 +46,24 @@ struct BodyOnCells {
 
 enum class Resolution { quick, standard, fine };
 
-// A named resolution and the results for which it suffices.
+// A named resolution and its errors on a plane that runs out (docs/refinement.md).
 struct ResolutionFacts {
   Resolution resolution;
   const char* name;
-  const char* purpose;
+  const char* errors;
 };
 
 inline constexpr std::array<ResolutionFacts, 3> resolutions{
-    {{Resolution::quick, "quick", "for travel distance and speed"},
-     {Resolution::standard, "standard", "for thickness and area too"},
-     {Resolution::fine, "fine", "differs from standard by half the error of standard"}}};
+    {{Resolution::quick, "quick", "errors of about 1 % in travel distance, 11 % in areas"},
+     {Resolution::standard, "standard", "errors of about 0.5 % in travel distance, 4 % in areas"},
+     {Resolution::fine, "fine", "errors of about 0.3 % in travel distance, 2 % in areas"}}};
 
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);
 
-// Cell size [m] for a release in 3D. thickness [m]: half of the volume is where the release is thinner.
-// median_thickness [m]: half of the area is where it is thinner.
-//   quick      thickness * particles_per_axis / proposed_particles
+// Size [m] of cells that follow the terrain for a release in 3D. thickness [m]: half of the volume is where the release
+// is thinner. median_thickness [m]: half of the area is where it is thinner.
+//   quick      thickness * particles_per_axis / fewest_particles
 //   standard   median_thickness / cells_for_maps
 //   fine       half of standard
 // quick and standard are rounded down to few digits.

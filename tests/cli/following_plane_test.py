@@ -20,6 +20,7 @@ FOLLOWING = ("grid.follows_terrain=true", 'time.stepping="adaptive"', "maps.cell
 BOUNDS = [
     pytest.param(20.0, 0.12, 0.11, 0.02, 0.07),
     pytest.param(10.0, 0.06, 0.04, 0.02, 0.06, marks=pytest.mark.long),
+    pytest.param(5.0, 0.03, 0.02, 0.02, 0.05, marks=pytest.mark.long),
 ]
 
 

@@ -64,7 +64,7 @@ def test_new_prints_the_next_commands(binary: Path, tmp_path: Path, slope: Slope
     assert f"preview:  {binary} check '{folder}' --picture\nrun:      {binary} run '{folder}'\n" in outcome.stdout
 
 
-CELLS = {"quick": 8.0, "standard": 3.0, "fine": 1.5}  # m, for 24 m
+CELLS = {"quick": 12.0, "standard": 6.0, "fine": 3.0}  # m, for 24 m
 DURATION = r"(?:\S+ (?:s|min|h|days))"
 
 
@@ -80,7 +80,7 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     chosen = resolution or "quick"
     assert cell_of(folder) == CELLS[chosen]
     found = re.search(
-        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; for [a-z ]+\n"
+        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; errors of about [0-9a-z %,.]+\n"
         rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} on \d+ threads?$",
         printed,
         re.MULTILINE,
@@ -89,16 +89,16 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     checked = thawslide.json("check", folder)
     assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
     assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
-    pattern = rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [a-z ]+$"
+    pattern = rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [0-9a-z %,.]+$"
     others = {name: float(cell) for name, cell in re.findall(pattern, printed, re.MULTILINE)}
     assert others == {name: cell for name, cell in CELLS.items() if name != chosen}
     assert "warning: " not in printed, "the text names the cells for maps"
 
 
 def test_a_cell_given_by_the_user_has_no_resolution_name(tmp_path: Path, slope: Slope) -> None:
-    printed = slope.ok("--cell", 12, folder=tmp_path / "own")
-    assert cell_of(tmp_path / "own") == 12.0
-    assert "\nresolution:  cells of 12 m\n             about " in printed
+    printed = slope.ok("--cell", 15, folder=tmp_path / "own")
+    assert cell_of(tmp_path / "own") == 15.0
+    assert "\nresolution:  cells of 15 m\n             about " in printed
     assert printed.count("--resolution ") == 3
     assert "warning: --cell: across the median thickness" in printed
 
@@ -133,7 +133,7 @@ def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: 
     # The cell is that for most of the volume; most of the area is below ramps.
     assert [line for line in printed.splitlines() if line.startswith("warning: --cell")] == [
         "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve "
-        "shear and thinning (found 3.3; needed 4). Set --cell to 3 m, at about 16 times the run time."
+        "shear and thinning (found 2.5; needed 4). Set --cell to 5 m, at about 6.6 times the run time."
     ]
     assert (
         'placement = "cut"  # out of the DEM, which is the surface before the slide; "on_top": onto it\n'
@@ -150,7 +150,7 @@ def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: 
         with rasterio.open(tmp_path / name / "maps" / "release.tif") as file:
             assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(VOLUME, rel=1e-9), name
     assert speeds["ramps"] > 0.6 * speeds["top"]
-    assert speeds["walls"] < 0.45 * speeds["top"]
+    assert speeds["walls"] < 0.8 * speeds["ramps"]
 
 
 def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(ran: Ran, tmp_path: Path, slope: Slope) -> None:

@@ -244,7 +244,7 @@ def failed(thawslide: Program, slope: Slope, velocity: list[float], *patterns: s
 
 @pytest.mark.parametrize("hole", [None, slice(60, 70)])
 def test_a_slide_off_the_known_terrain_fails_the_run(thawslide: Program, slope: Slope, hole: slice | None) -> None:
-    slope.ok(dem=slope(hole=hole))
+    slope.ok("--cell", 8, dem=slope(hole=hole))
     patterns = [NO_GROUND] if hole else [NO_GROUND, LEFT_DOMAIN + DEM_ENDS]
     reported = failed(thawslide, slope, [80.0, 0.0, 0.0], *patterns, basal__friction_angle=1)
     east = WEST + CELL * ((hole.start if hole else COLUMNS) - 1)

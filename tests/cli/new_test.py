@@ -17,7 +17,7 @@ def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> No
     folder = tmp_path / "slide"
     slope.ok()
     case = tomllib.loads((folder / "case.toml").read_text())
-    assert THICKNESS / (case["grid"]["cell"] / case["body"]["slide"]["particles_per_axis"]) >= 6.0
+    assert THICKNESS / (case["grid"]["cell"] / case["body"]["slide"]["particles_per_axis"]) >= 4.0
     run = ran("--set", "time.end=1.5", case=folder)
 
     volume = WIDTH * DEPTH * THICKNESS
@@ -26,7 +26,7 @@ def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> No
         assert file.units == ("m",)
         assert file.block_shapes == [(256, 256)] and file.compression.value == "DEFLATE"
         thickness = file.read(1, masked=True)
-        # Particles 4 m apart: three distances are wider than a cell of the DEM.
+        # Particles 6 m apart: three distances are wider than a cell of the DEM.
         assert file.res == (2.0 * CELL, 2.0 * CELL)
     facts, columns = run_facts(run), history(run)
     assert facts["crs"] == "EPSG:32632"
@@ -71,7 +71,7 @@ def test_a_thickness_raster_defines_the_release_without_polygons(ran: Ran, tmp_p
         thickness = np.zeros(file.shape)
         row, column = file.index(WEST + 260.0, SOUTH + 300.0)
         profile = file.profile | {"nodata": None}
-    thickness[row - 8 : row + 9, column - 8 : column + 9] = 1.5  # of particles 4 m apart
+    thickness[row - 8 : row + 9, column - 8 : column + 9] = 1.5  # of particles 6 m apart
     thickness[row - 4 : row + 5, column - 4 : column + 5] = THICKNESS
     with rasterio.open(folder / "thick.tif", "w", **profile) as file:
         file.write(thickness, 1)
@@ -171,9 +171,9 @@ def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Pa
     slope.ok()
     with rasterio.open(folder / "dem.tif") as file:
         of_ground = file.width * file.height * 8
-    usual = "2 x 2 of the DEM's, to be at least 12 m wide: three particle distances"
+    usual = "2 x 2 of the DEM's, to be at least 18 m wide: three particle distances"
     note = (
-        "warning: maps.cell is 5 m, and grid.cell 8 m: a map cell contains few particles or only one, and the maximum "
+        "warning: maps.cell is 5 m, and grid.cell 12 m: a map cell contains few particles or only one, and the maximum "
         "speeds and pressures are those of single particles. Without maps.cell, maps have cells of 20 m.\n"
     )
     for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):

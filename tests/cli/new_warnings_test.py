@@ -22,15 +22,15 @@ def test_too_few_particles_across_have_a_warning(thawslide: Program, tmp_path: P
     checked = thawslide("check", tmp_path / "fine")
     assert (
         "  body        slide: 288,000 m3 and 594,000 t, over 12,000 m2; 24 m thick on average, 24 m in the median and "
-        "24 m at most (vertical)\n              4,512 particles 4 m apart; 6 across in the median and 6 at most; -5 "
+        "24 m at most (vertical)\n              1,304 particles 6 m apart; 4 across in the median and 4 at most; -5 "
         "C\n  roughness   noise of 0 m rms"
     ) in checked.stdout
     coarse = slope.new("--cell", 30, folder=tmp_path / "coarse")
     particles = "too few particles to resolve shear and thinning (found 1.6; needed 4)"
-    problem = f"{ACROSS}{particles}, and {MAPS} (found 0.8; needed 8)"
+    problem = f"{ACROSS}{particles}, and {MAPS} (found 0.8; needed 4)"
     assert (
-        f"warning: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
-        "10,000 times the run time.\n"
+        f"warning: --cell: {problem}. Set --cell to 12 m, at about 39 times the run time, or for maps to 6 m, at about "
+        "620 times the run time.\n"
     ) in coarse.stdout, coarse.stderr
     checked = thawslide.ok("check", tmp_path / "coarse")
     assert "; 1.6 across in the median and 1.6 at most; " in checked
@@ -39,8 +39,8 @@ def test_too_few_particles_across_have_a_warning(thawslide: Program, tmp_path: P
         r"times the run time, or for maps to (\S+) m, at about \S+ times the run time\.\n",
         checked,
     )
-    assert fitting and 4.0 < float(fitting[1]) <= 8.0, checked
-    assert 2.0 <= float(fitting[2]) <= 3.0, checked
+    assert fitting and 6.0 < float(fitting[1]) <= 12.0, checked
+    assert 4.0 <= float(fitting[2]) <= 6.0, checked
     assert "too few particles" not in thawslide.ok("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[1]}")
     assert MAPS not in thawslide.ok("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[2]}")
 
@@ -48,14 +48,14 @@ def test_too_few_particles_across_have_a_warning(thawslide: Program, tmp_path: P
 def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     folder = tmp_path / "slide"
     outcome = slope.new()
-    problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
-    fewer = "Travel distance and speed need 2 to 4 cells.\n"
-    assert "warning: " not in outcome.stdout and "  --resolution standard: cells of 3 m, about " in outcome.stdout
+    problem = f"{ACROSS}{MAPS} (found 2; needed 4)"
+    fewer = "Travel distance and speed need 2.\n"
+    assert "warning: " not in outcome.stdout and "  --resolution standard: cells of 6 m, about " in outcome.stdout
     text = (folder / "case.toml").read_text()
     assert (
-        "cell = 8.0  # m; two particles a cell and axis make 6.0 across a thickness of 24 m\n"
-        "# Travel distance and speed need 2 to 4 cells across the thickness of the release. Maps of thickness and area "
-        "need\n# 8: cells of 3 m (`thawslide new --resolution standard`), at about 51 times the run time.\n"
+        "cell = 12.0  # m; two particles a cell and axis make 4.0 across a thickness of 24 m\n"
+        "# Travel distance and speed need 2 cells across the thickness of the release. Maps of thickness and area need\n"
+        "# 4: cells of 6 m (`thawslide new --resolution standard`), at about 16 times the run time.\n"
     ) in text
     place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
     (note,) = thawslide.json("check", folder)["warnings"]
@@ -64,8 +64,8 @@ def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Pat
     assert f"warning: {note}\n" in run.stdout, run.stderr
     assert f"{problem}. Set grid.cell to " in thawslide.ok("check", tmp_path / "run")
 
-    assert "warning: " not in slope.ok("--cell", 3, folder=tmp_path / "fine")
-    assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
+    assert "warning: " not in slope.ok("--cell", 6, folder=tmp_path / "fine")
+    assert "need 2 cells" not in (tmp_path / "fine" / "case.toml").read_text()
     assert thawslide.json("check", tmp_path / "fine")["warnings"] == []
 
     (folder / "case.toml").write_text(text.partition("# Maps are updated")[0])

@@ -50,7 +50,7 @@ def test_section_of_a_plane_runs_unchanged(ran: Ran, thawslide: Program, maps: M
     folder = tmp_path / "case"
     printed = thawslide.ok(*maps.words_with_release(folder))
     assert sorted(file.name for file in folder.iterdir()) == ["case.toml", "profile.csv"]
-    assert "a release of 2,000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 220 particles" in printed
+    assert "a release of 2,000 m3 per metre of width, 18.7 m thick, on 8 m cells: about 130 particles" in printed
     comments, columns = profile(folder)
     assert comments == [
         "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",
@@ -69,7 +69,7 @@ def test_section_of_a_plane_runs_unchanged(ran: Ran, thawslide: Program, maps: M
     text = (folder / "case.toml").read_text()
     assert "has no side walls and does not spread" in text
     case = tomllib.loads(text)
-    assert 2 * 18.7 / case["grid"]["cell"] >= 6.0
+    assert 2 * 18.7 / case["grid"]["cell"] >= 4.0
     assert case["body"]["slide"]["shape"] == "surface" and case["terrain"]["type"] == "profile"
 
     thawslide.ok("check", folder)
@@ -162,7 +162,7 @@ def test_invalid_lines_and_options_are_reported(thawslide: Program, maps: Maps, 
     )
     write_line(maps.line, [(150.0, 200.0), (775.0, 200.0)])
     assert error(*maps.words_with_release(folder)) == (
-        f"error: --line: {maps.line}: the section begins 0 m before the release; needed: at least 30 m, 5 cells. Make "
+        f"error: --line: {maps.line}: the section begins 0 m before the release; needed: at least 40 m, 5 cells. Make "
         "the line longer there."
     )
     write_line(maps.line, STRAIGHT)

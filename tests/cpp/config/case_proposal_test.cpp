@@ -69,14 +69,14 @@ TEST(CaseProposal, TheCellFollowsTheVolumeAndTheMedianTheArea) {
   EXPECT_EQ(proposal.thickness, 20.0);
   EXPECT_EQ(proposal.median_thickness, 4.0);
   EXPECT_EQ(median_thickness(release), 4.0);
-  EXPECT_EQ(proposal.cell, 6.0) << "six particles across 20 m";
+  EXPECT_EQ(proposal.cell, 10.0) << "four particles across 20 m";
 }
 
 TEST(CaseProposal, TheCellIsThatOfTheResolutionUnlessTheUserGivesOne) {
   const Raster release = release_at(20, 15, 20.0);
   const Proposal standard = propose(dem_points(), release, 20.0, 0.0, Resolution::standard);
-  EXPECT_EQ(standard.cell, 2.5) << "eight cells across 20 m";
-  EXPECT_EQ(propose(dem_points(), release, 20.0, 0.0, Resolution::fine).cell, 1.25);
+  EXPECT_EQ(standard.cell, 5.0) << "four cells across 20 m";
+  EXPECT_EQ(propose(dem_points(), release, 20.0, 0.0, Resolution::fine).cell, 2.5);
   EXPECT_EQ(propose(dem_points(), release, 20.0, 4.0, Resolution::fine).cell, 4.0);
   EXPECT_EQ(case_text(ProposalInput(), standard).find("Maps of thickness and area need"), std::string::npos);
 }
@@ -108,11 +108,11 @@ TEST(CaseProposal, RunsEndAtRest) {
 }
 
 TEST(CaseProposal, BeginsAtTheEdgeOfTheDemIfAMultipleOfTheCellWouldCutTheRelease) {
-  const Proposal west = propose(dem_points(), release_at(1, 1, 23.0), 8.0);
+  const Proposal west = propose(dem_points(), release_at(1, 1, 12.0), 8.0);
   EXPECT_EQ(west.cell, 6.0);
   EXPECT_EQ(west.min[0], 1000.0) << "a multiple of 6 m would be 1002 m";
   EXPECT_EQ(west.min[1], 2000.0);
-  const Proposal east = propose(dem_points(), release_at(49, 31, 23.0), 8.0);
+  const Proposal east = propose(dem_points(), release_at(49, 31, 12.0), 8.0);
   EXPECT_EQ(east.max[0], 1590.0);
   EXPECT_EQ(east.max[1], 2390.0);
   for (const Proposal& proposal : {west, east}) {

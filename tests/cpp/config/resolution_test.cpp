@@ -76,15 +76,22 @@ TEST(Resolution, AProposedCellIsFineEnough) {
 
 TEST(Resolution, WarningsStateTheFoundAndNeededNumbersAndTheCost) {
   EXPECT_EQ(
-      resolution_warning(body_on(24.0, 8.0, 2, true), "--cell"),
+      resolution_warning(body_on(24.0, 8.0, 2, true), "grid.cell"),
+      "grid.cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
+      "area (found 3; needed 8). Set grid.cell to 3 m, at about 51 times the run time. Travel distance and speed need "
+      "2 to 4. With grid.follows_terrain = true, maps need 4.");
+  BodyOnCells following = body_on(24.0, 8.0, 2, true);
+  following.follow_terrain = true;
+  EXPECT_EQ(
+      resolution_warning(following, "--cell"),
       "--cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
-      "area (found 3; needed 8). Set --cell to 3 m, at about 51 times the run time. Travel distance and speed need "
-      "2 to 4 cells.");
+      "area (found 3; needed 4). Set --cell to 6 m, at about 3.2 times the run time. Travel distance and speed need "
+      "2.");
   EXPECT_EQ(
       resolution_warning(body_on(24.0, 30.0, 2, true), "grid.cell"),
       "grid.cell: across the median thickness of body slide, 24 m, there are too few particles to resolve shear "
       "and thinning (found 1.6; needed 4), and too few cells for maps of thickness and area (found 0.8; needed 8). "
-      "Set grid.cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about 10,000 times the run "
+      "Set grid.cell to 12 m, at about 39 times the run time, or for maps to 3 m, at about 10,000 times the run "
       "time.");
   EXPECT_EQ(resolution_warning(body_on(1.5, 1.0, 2, false, 2), "grid.cell", {20.0, 10.0}),
             "grid.cell: across the median thickness of body slide, 1.5 m, there are too few particles to resolve shear "
@@ -122,15 +129,18 @@ TEST(Resolution, MapsAreRequestedByTheirCellOrTheirMinimumThickness) {
 
 // The comment in a case of `thawslide new` states the same cell and cost as the warning.
 TEST(Resolution, TheCommentOfACaseAgreesWithTheWarning) {
-  for (const double cell : {30.0, 8.0, 4.0, 3.1}) {
-    const BodyOnCells body = body_on(24.0, cell, 2, true);
+  for (const double cell : {30.0, 12.0, 8.0, 6.1}) {
+    BodyOnCells body = body_on(24.0, cell, 2, true);
+    body.follow_terrain = true;
     const std::string comment = maps_comment(body), warning = resolution_warning(body, "--cell");
-    EXPECT_NE(comment.find("cells of 3 m (`thawslide new --resolution standard`), at about"), std::string::npos)
+    EXPECT_NE(comment.find("cells of 6 m (`thawslide new --resolution standard`), at about"), std::string::npos)
         << comment;
     const std::string cost = comment.substr(comment.find("at about"));
     EXPECT_NE(warning.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << warning;
   }
-  EXPECT_EQ(maps_comment(body_on(24.0, 3.0, 2, true)), "");
+  BodyOnCells fine = body_on(24.0, 6.0, 2, true);
+  fine.follow_terrain = true;
+  EXPECT_EQ(maps_comment(fine), "");
 }
 
 TEST(Resolution, AProposedCaseHasTheComment) {
@@ -151,10 +161,10 @@ TEST(Resolution, HasTheCellsNeededForItsResults) {
     for (const int particles : {1, 2, 4}) {
       const double quick = cell_of(Resolution::quick, thickness, median, particles);
       const double standard = cell_of(Resolution::standard, thickness, median, particles);
-      EXPECT_GE(thickness / quick * particles, proposed_particles * (1.0 - 1e-9));
-      EXPECT_LT(thickness / quick * particles, 1.4 * proposed_particles) << "not much finer than needed";
-      EXPECT_GE(median / standard, cells_for_maps * (1.0 - 1e-9));
-      EXPECT_LT(median / standard, 1.4 * cells_for_maps);
+      EXPECT_GE(thickness / quick * particles, fewest_particles * (1.0 - 1e-9));
+      EXPECT_LT(thickness / quick * particles, 1.4 * fewest_particles) << "not much finer than needed";
+      EXPECT_GE(median / standard, cells_for_maps(true) * (1.0 - 1e-9));
+      EXPECT_LT(median / standard, 1.4 * cells_for_maps(true));
       EXPECT_EQ(cell_of(Resolution::fine, thickness, median, particles), 0.5 * standard);
     }
   }
@@ -163,7 +173,8 @@ TEST(Resolution, HasTheCellsNeededForItsResults) {
 TEST(Resolution, StandardCausesNoWarningAboutMaps) {
   for (const double thickness : {1.3, 10.0, 24.0, 31.0}) {
     const double cell = cell_of(Resolution::standard, thickness, thickness, 2);
-    const BodyOnCells body{.name = "slide", .thickness = thickness, .cell = cell, .has_maps = true};
+    const BodyOnCells body{
+        .name = "slide", .thickness = thickness, .cell = cell, .has_maps = true, .follow_terrain = true};
     EXPECT_EQ(resolution_warning(body, "--cell"), "");
   }
 }
