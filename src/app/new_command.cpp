@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
@@ -21,6 +23,7 @@
 #include "config/case_proposal.hpp"
 #include "config/read_case.hpp"
 #include "config/resolution.hpp"
+#include "gis/dem.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
@@ -71,6 +74,17 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
                       file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
     }
   }
+}
+
+// Width of the filter of the DEM [m]: the larger of that against noise and bumps in the domain, and the cell of
+// `quick`.
+double filter_of(config::Case trial, const config::Proposal& proposal) {
+  trial.grid.min = proposal.min;
+  trial.grid.max = proposal.max;
+  trial.grid.cell = config::quick_cell(proposal);
+  trial.terrain.smooth.is_auto = true;
+  std::vector<std::string> known_warnings;
+  return std::max(trial.grid.cell, gis::load_dem(trial, known_warnings).roughness.width);
 }
 
 std::string reason_for_cell(const config::Proposal& proposal, const NewOptions& options) {
@@ -256,6 +270,7 @@ int make_new_case(const NewOptions& options) {
   input.placement = options.maps.cut ? config::Placement::cut : config::Placement::on_top;
   input.reach_angle = options.reach_angle;
   input.largest_volume = options.maps.largest_volume;
+  input.filter = filter_of(trial, proposal);
 
   NewFolder new_folder(options.folder);
   const fs::path& folder = new_folder.path();

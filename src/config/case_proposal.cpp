@@ -177,6 +177,10 @@ std::string edge_warning(const Proposal& proposal) {
       rounded_text(proposal.edge_distance, 2), rounded_text(proposal.length, 2));
 }
 
+double quick_cell(const Proposal& proposal) {
+  return cell_of(Resolution::quick, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
+}
+
 BodyOnCells release_on_cells(const Proposal& proposal) {
   return {.name = "slide",
           .thickness = proposal.median_thickness,
@@ -290,6 +294,7 @@ max = {max}
 [terrain]
 type = "dem"
 file = {dem}
+smooth = {filter}  # m: filter of the DEM, at least one cell of `quick`, so that finer cells have the same ground
 
 [body.slide]
 material = "rock_ice"
@@ -313,6 +318,7 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
       fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
       fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
+      fmt::arg("filter", number_text(input.filter)),
       fmt::arg("release",
                input.release_file.empty() ? std::string() : fmt::format("release = {}\n", quoted(input.release_file))),
       fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),

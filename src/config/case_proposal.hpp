@@ -23,6 +23,7 @@ struct ProposalInput {
   EdgeTaper taper;                         // of an excavated release
   double reach_angle = usual_reach_angle;  // degrees
   double largest_volume = 0.0;             // m3, confirmed; 0: default of the parameter
+  double filter = 0.0;                     // m: standard deviation of the filter of the DEM
 };
 
 struct Proposal {
@@ -62,6 +63,10 @@ void propose_times(Proposal& proposal, double farthest);
 
 // Median of a thickness raster [m] with points of equal area: half of the area is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
+
+// Cell of `quick` [m], whatever cell was chosen. It determines the filter of the DEM, so that slides on different cells
+// move on the same ground.
+[[nodiscard]] double quick_cell(const Proposal& proposal);
 
 // Release of a 3D case, which has maps.
 [[nodiscard]] BodyOnCells release_on_cells(const Proposal& proposal);

@@ -314,19 +314,36 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   return found;
 }
 
+namespace {
+
+// Cells that follow the terrain average it. On terrain with bumps and without a filter of their size, each cell has its
+// own ground.
+std::string note_of_ground(const config::Roughness& found) {
+  constexpr double slope_of_smooth_ground = 0.01;
+  if (found.bump_slope < slope_of_smooth_ground || found.width >= found.cell * (1.0 - 1e-9)) {
+    return "";
+  }
+  return fmt::format(
+      "note: terrain.smooth is {:g} m and grid.cell {:g} m: cells larger than the filter smooth the ground further. To "
+      "compare runs on several cells, set terrain.smooth to the largest of them in each run.",
+      found.width, found.cell);
+}
+
+}  // namespace
+
 std::string roughness_warning(const config::Case& parameters, const config::Site& site) {
   constexpr double much_friction = 0.05;
   const config::Roughness& found = *site.roughness;
   const bool is_auto = parameters.terrain.smooth.is_auto;
   const double widest = 2.0 * std::max(found.cell, found.spacing);
-  if (found.width > widest * (1.0 + 1e-9)) {
+  if (!parameters.grid.follows_terrain && found.width > widest * (1.0 + 1e-9)) {
     return fmt::format(
         "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow. In V valleys filled less than "
         "{:g} m wide it removes more than 3 % of the friction of the sides. Use \"auto\", or at most {:g} m.",
         found.width, found.narrow_valley, widest);
   }
   if (is_auto ? found.remaining_slope <= largest_slope : found.apparent_friction <= much_friction) {
-    return "";
+    return parameters.grid.follows_terrain ? note_of_ground(found) : "";
   }
   const std::string remedy = is_auto
                                  ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."

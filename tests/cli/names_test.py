@@ -35,7 +35,7 @@ def test_the_next_commands_can_be_pasted(thawslide: Program, tmp_path: Path, slo
     if "\n" not in name and "\t" not in name:
         assert shlex.split(command) == [str(thawslide.binary), "check", str(folder)]
     pasted = thawslide.finish(["bash", "-c", f"{command} --json"])
-    assert pasted.returncode == 0 and '"particles": 1304' in pasted.stdout, pasted.stderr
+    assert pasted.returncode == 0 and '"particles": 1400' in pasted.stdout, pasted.stderr
 
 
 @pytest.mark.parametrize("name", NAMES)

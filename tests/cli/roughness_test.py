@@ -1,5 +1,6 @@
 """Noise on a DEM: facts and warnings of check, and the same terrain for every command."""
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +27,38 @@ def make_case(thawslide: Program, folder: Path, noise: float) -> Path:
     release = write_release(folder / "release.geojson", RELEASE, thickness=20.0)
     case = folder / "case"
     assert "smoothed" not in thawslide.ok("new", case, "--dem", dem, "--release", release, "--cell", 10)
+    file = case / "case.toml"
+    kept = [line for line in file.read_text().splitlines() if not line.startswith("smooth = ")]
+    file.write_text("\n".join(kept) + "\n")
     return case
 
 
 @pytest.fixture
 def rough_case(thawslide: Program, tmp_path: Path) -> Path:
     return make_case(thawslide, tmp_path, NOISE)
+
+
+@pytest.mark.parametrize(("thickness", "width"), [(8.0, WIDTH), (40.0, 20.0)], ids=["noise", "cell"])
+def test_new_writes_the_filter_in_metres(
+    thawslide: Program, rough_case: Path, tmp_path: Path, thickness: float, width: float
+) -> None:
+    """It is that against noise, or half the thickness, which is a cell of `quick`, on any cells."""
+    release = write_release(tmp_path / "other.geojson", RELEASE, thickness=thickness)
+    for resolution in ("quick", "standard"):
+        case = tmp_path / resolution
+        words = ("--dem", rough_case.parent / "dem.tif", "--release", release, "--resolution", resolution)
+        thawslide.ok("new", case, *words)
+        assert tomllib.loads((case / "case.toml").read_text())["terrain"]["smooth"] == width
+
+
+def test_a_filter_narrower_than_a_cell_that_follows_the_terrain_is_noted(thawslide: Program, rough_case: Path) -> None:
+    def notes(*words: object) -> list[str]:
+        return [note for note in thawslide.json("check", rough_case, *words)["warnings"] if "ground further" in note]
+
+    (note,) = notes(*sets(terrain__smooth=9.5))
+    assert note.startswith("note: terrain.smooth is 9.5 m and grid.cell 10 m: cells larger than the filter")
+    assert notes(*sets(terrain__smooth=10)) == []
+    assert notes(*sets(terrain__smooth=9.5, grid__follows_terrain="false")) == []
 
 
 def test_new_does_not_change_the_dem(rough_case: Path) -> None:
@@ -64,8 +91,11 @@ def test_unfiltered_noise_has_a_warning(thawslide: Program, rough_case: Path) ->
     note = next(note for note in left["warnings"] if note.startswith("terrain.smooth: "))
     assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
-    smooth = thawslide.json("check", rough_case, *sets(terrain__smooth=20))
-    assert not [note for note in smooth["warnings"] if note.startswith("terrain.smooth: ")]
+    for words in (sets(terrain__smooth=20), sets(terrain__smooth=30)):
+        smooth = thawslide.json("check", rough_case, *words)
+        assert not [note for note in smooth["warnings"] if note.startswith("terrain.smooth: ")]
+    wide = thawslide.json("check", rough_case, *sets(terrain__smooth=30, grid__follows_terrain="false"))
+    assert any("a filter of 30 m removes terrain" in note for note in wide["warnings"])
 
 
 def test_clean_ground_is_not_smoothed(thawslide: Program, tmp_path: Path) -> None:
