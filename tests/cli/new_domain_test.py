@@ -80,7 +80,7 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     chosen = resolution or "quick"
     assert cell_of(folder) == CELLS[chosen]
     found = re.search(
-        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; errors of about [0-9a-z %,.]+\n"
+        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; [0-9a-z %,.]+\n"
         rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} on \d+ threads?$",
         printed,
         re.MULTILINE,
