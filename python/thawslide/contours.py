@@ -23,7 +23,7 @@ from thawslide.run_folder import Numbers, Run
 Polygon = list[Numbers]  # closed rings of shape (n, 2) [m]: the outline, then its holes
 
 # In these maps, no data does not mean 0: the sliding mass never reached the cell.
-_WITHOUT_ZERO = ("arrival_time", "max_basal_temperature", "terrain")
+_WITHOUT_ZERO = ("arrival_time", "max_basal_temperature", "terrain", "ground")
 _DEGREES = 8  # decimals, about 1 mm
 
 

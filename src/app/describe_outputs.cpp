@@ -86,7 +86,7 @@ std::string base_text() {
 
 std::string maps_text() {
   std::string rows;
-  for (const run::GroundMap& map : {run::terrain_map, run::release_map}) {
+  for (const run::GroundMap& map : {run::terrain_map, run::release_map, run::ground_map}) {
     rows += row(fmt::format("`{}`", map.name), map.unit, map.description);
   }
   for (const sim::MapKind& kind : sim::map_kinds()) {

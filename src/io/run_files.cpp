@@ -30,8 +30,9 @@ constexpr std::string_view files_of_a_run[] = {
     "report.html", "comparison.html", "summary.html", "summary.pdf", previous_checkpoint_name};
 // In maps/, as GeoTIFF with a style (sim/map_kinds.cpp, app/map_output.cpp).
 constexpr std::string_view maps_of_a_run[] = {
-    "terrain",      "release",      "max_thickness",    "final_thickness",       "max_speed", "max_momentum_flux",
-    "max_pressure", "arrival_time", "elevation_change", "max_basal_temperature", "max_melt",  "max_pore_pressure"};
+    "terrain",           "release",      "ground",       "max_thickness",    "final_thickness",       "max_speed",
+    "max_momentum_flux", "max_pressure", "arrival_time", "elevation_change", "max_basal_temperature", "max_melt",
+    "max_pore_pressure"};
 // In figures/, as images or videos (python/thawslide/figures/__init__.py).
 constexpr std::string_view figures_of_a_run[] = {"extent_maps",
                                                  "animation",

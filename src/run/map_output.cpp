@@ -140,7 +140,12 @@ void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, con
 
 bool can_write_maps() { return true; }
 
-void write_ground_maps(const fs::path& folder, const config::Site& site) {
+void write_ground_maps(const fs::path& folder, const sim::Simulation<3>& simulation) {
+  const config::Site& site = simulation.site();
+  if (simulation.model().following) {
+    write_map(folder, ground_map.name, sim::ground_of_cells(simulation.parameters(), site, simulation.model()),
+              {ground_map.unit, ground_map.description});
+  }
   if (site.ground == nullptr) {
     return;
   }
@@ -183,8 +188,9 @@ namespace thawslide::run {
 
 bool can_write_maps() { return false; }
 
-void write_ground_maps(const std::filesystem::path& /*folder*/, const config::Site& site) {
-  THAWSLIDE_ASSERT(site.ground == nullptr, "a raster of {} columns in a build without maps", site.ground->columns);
+void write_ground_maps(const std::filesystem::path& /*folder*/, const sim::Simulation<3>& simulation) {
+  THAWSLIDE_ASSERT(simulation.site().ground == nullptr, "a raster of {} columns in a build without maps",
+                   simulation.site().ground->columns);
 }
 
 void write_maps(const std::filesystem::path& folder, const sim::RunRecords<3>& /*records*/,

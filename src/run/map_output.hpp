@@ -19,7 +19,7 @@ struct FrontAt {
 // True if this build can write maps, which requires GDAL.
 [[nodiscard]] bool can_write_maps();
 
-// A map on the points of the DEM, written at the start.
+// A map written at the start.
 struct GroundMap {
   const char* name;
   const char* unit;
@@ -27,9 +27,13 @@ struct GroundMap {
 };
 inline constexpr GroundMap terrain_map{"terrain", "m", "elevation of the terrain on which the material slides"};
 inline constexpr GroundMap release_map{"release", "m", "vertical thickness of the release"};
+inline constexpr GroundMap ground_map{"ground", "m",
+                                      "elevation of the ground of cells that follow the terrain "
+                                      "(grid.follows_terrain), on which the material then slides"};
 
-// Writes both of these; nothing without a ground raster.
-void write_ground_maps(const std::filesystem::path& folder, const config::Site& site);
+// Writes the first two on the points of the DEM, if the terrain is one, and the last on the grid of the other maps, if
+// cells follow the terrain.
+void write_ground_maps(const std::filesystem::path& folder, const sim::Simulation<3>& simulation);
 
 // Attributes of the maps.
 struct MapTexts {

@@ -18,25 +18,37 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Places of a profile that define the ground: its vertices inside the domain, or the columns of cells that follow it,
+// and the two sides of the domain.
+template <int Dim>
+std::vector<double> stations_of(const sim::Model<Dim>& model, double cell) {
+  const double extent = static_cast<double>(model.constraints.extent[0]);
+  std::vector<double> places = model.profile->x();
+  if (model.following) {
+    places.resize(static_cast<std::size_t>(std::lround(extent / cell)));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      places[k] = static_cast<double>(k) * cell;
+    }
+  }
+  std::vector<double> x{0.0};
+  std::copy_if(places.begin(), places.end(), std::back_inserter(x),
+               [&](double place) { return place > 0.0 && place < extent; });
+  x.push_back(extent);
+  return x;
+}
+
 template <int Dim>
 void write_terrain(const fs::path& folder, const sim::Simulation<Dim>& simulation) {
   const auto& model = simulation.model();
   if (!model.profile) {
     return;
   }
-  // Vertices inside the domain, and the ground at its two sides.
-  const auto& line = *model.profile;
-  const double extent = static_cast<double>(model.constraints.extent[0]);
-  std::vector<double> x{0.0};
-  for (const double vertex : line.x()) {
-    if (vertex > 0.0 && vertex < extent) {
-      x.push_back(vertex);
-    }
-  }
-  x.push_back(extent);
-  std::vector<double> height;
+  std::vector<double> x = stations_of(model, simulation.parameters().grid.cell), height;
   for (double& station : x) {
-    height.push_back(line.height(station) + model.origin[Dim - 1]);
+    typename terrain::Surface<Dim>::Point point = terrain::Surface<Dim>::Point::Zero();
+    point[0] = station;
+    height.push_back((model.following ? model.following->height(point) : model.profile->height(station)) +
+                     model.origin[Dim - 1]);
     station += model.origin[0];
   }
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
@@ -49,8 +61,11 @@ void write_missing_files(const fs::path& folder, const sim::Simulation<Dim>& sim
     write_terrain(folder, simulation);
   }
   const auto is_present = [&](const char* name) { return fs::exists(folder / "maps" / name); };
-  if (!is_present("terrain.tif") || !is_present("release.tif") || !is_present("release.qml")) {
-    write_ground_maps(folder, simulation.site());
+  if constexpr (Dim == 3) {
+    if (!is_present("terrain.tif") || !is_present("release.tif") || !is_present("release.qml") ||
+        (simulation.model().following && !is_present("ground.tif"))) {
+      write_ground_maps(folder, simulation);
+    }
   }
 }
 
@@ -159,7 +174,9 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, 
   complete(provenance_, simulation);
   write_provenance(simulation, "running", "", 0.0);
   write_terrain(folder, simulation);
-  write_ground_maps(folder, simulation.site());
+  if constexpr (Dim == 3) {
+    write_ground_maps(folder, simulation);
+  }
 }
 
 template <int Dim>

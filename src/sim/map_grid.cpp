@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "sim/model.hpp"
 
 namespace thawslide::sim {
 
@@ -88,6 +90,30 @@ MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
                     rounded_text(most_map_cells * sizeof(double) / 1e9), cell_for(x, y, most_map_cells)));
   }
   return {x.first, y.first, x.cell, y.cell, static_cast<int>(x.cells), static_cast<int>(y.cells), site.crs};
+}
+
+Raster ground_of_cells(const config::Case& parameters, const config::Site& site, const Model<3>& model) {
+  const MapGrid grid = map_grid_of(parameters, site);
+  Raster raster;
+  raster.x = grid.x;
+  raster.y = grid.y;
+  raster.cell_x = grid.cell_x;
+  raster.cell_y = grid.cell_y;
+  raster.columns = grid.columns;
+  raster.rows = grid.rows;
+  raster.crs = grid.crs;
+  raster.values.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), std::nan(""));
+  const Vector<double, 2> origin = model.origin.head<2>(), extent = model.constraints.extent.head<2>().cast<double>();
+  parallel_for(static_cast<std::size_t>(grid.rows), [&](std::size_t row) {
+    const int j = static_cast<int>(row);
+    for (int i = 0; i < grid.columns; ++i) {
+      const Vector<double, 2> point = Vector<double, 2>(raster.x_of(i), raster.y_of(j)) - origin;
+      if ((point.array() >= 0.0).all() && (point.array() <= extent.array()).all() && model.following->is_known(point)) {
+        raster.values[raster.index(i, j)] = model.following->height(point) + model.origin[2];
+      }
+    }
+  });
+  return raster;
 }
 
 std::string reason_for_map_cell(const config::Case& parameters, const config::Site& site) {

@@ -11,6 +11,9 @@
 
 namespace thawslide::sim {
 
+template <int Dim>
+struct Model;
+
 // Cells are centred on points, as in a raster.
 struct MapGrid {
   double x = 0.0, y = 0.0;            // first point, in the south-west [m]
@@ -40,6 +43,9 @@ constexpr double most_map_cells = 2.5e8;
 // until the grid covers the domain, so no part of a slide lies outside it. Throws UserError for more than
 // most_map_cells.
 [[nodiscard]] MapGrid map_grid_of(const config::Case& parameters, const config::Site& site);
+
+// Ground of cells that follow the terrain, at the centres of map cells [m]. NaN: outside the domain, or no data.
+[[nodiscard]] Raster ground_of_cells(const config::Case& parameters, const config::Site& site, const Model<3>& model);
 
 // Reason for the cell size, worded to follow the size in a sentence.
 [[nodiscard]] std::string reason_for_map_cell(const config::Case& parameters, const config::Site& site);

@@ -178,9 +178,15 @@ def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path)
 
 
 def test_missing_maps_of_the_terrain_are_written_again(ran: Ran, thawslide: Program) -> None:
-    words = sets(grid__cell=60, time__end=0.1, time__output_interval=0.1)
+    words = sets(
+        grid__cell=60,
+        grid__follows_terrain="true",
+        time__stepping='"adaptive"',
+        time__end=0.1,
+        time__output_interval=0.1,
+    )
     run = ran(*words, case=conftest.LAMPLUGH.parent / "valley3d")
-    names = ("terrain.tif", "release.tif", "release.qml")
+    names = ("terrain.tif", "release.tif", "release.qml", "ground.tif")
     maps = {name: (run / "maps" / name).read_bytes() for name in names}
     for name in names:
         mark_killed(run)

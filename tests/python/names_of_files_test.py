@@ -28,7 +28,7 @@ def test_simulator_has_all_names_of_figures_and_maps() -> None:
     assert names_in("figures_of_a_run") == set(FIGURES)
     kinds = set(re.findall(r'^ +{"(\w+)", "', (ROOT / "src" / "sim" / "map_kinds.cpp").read_text(), re.MULTILINE))
     assert len(kinds) >= 10
-    assert names_in("maps_of_a_run") == kinds | {"terrain", "release"}
+    assert names_in("maps_of_a_run") == kinds | {"terrain", "release", "ground"}
 
 
 def test_temporary_files_of_two_reports_do_not_collide(tmp_path: Path) -> None:

@@ -25,6 +25,14 @@ def test_sections_have_terrain_and_maximum_thickness(map_run: Path) -> None:
     assert float(np.max(np.asarray(panels[1].lines[0].get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
 
 
+def test_sections_are_drawn_above_the_ground_of_cells_that_follow_the_terrain(map_run: Path) -> None:
+    write_map(map_run / "maps" / "ground.tif", ground(*centres()) + 3.0)
+    panel = maps_of(plotted("cross_sections", map_run))[0]
+    (surface,) = [line for line in panel.lines if line.get_color() == "#6B6459"]
+    x, z = (np.asarray(values, dtype=float) for values in surface.get_data())
+    np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)) + 3.0, rtol=1e-9)
+
+
 def test_release_is_not_thicker_than_the_maximum_on_coarser_cells(map_run: Path) -> None:
     """The release has cells of 10 m; the maximum, the same slab, has cells of 30 m."""
     coarse = read_map(map_run / "maps" / "release.tif").values.reshape(10, 3, 20, 3).mean(axis=(1, 3))

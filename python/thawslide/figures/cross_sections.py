@@ -195,7 +195,7 @@ def _whole(site: Site) -> _Fields:
 
     maximum = thickness("max_thickness")
     release = site.maps["release"].averaged_over(maximum.grid) if site.release is not None else None
-    return _Fields(site.maps["terrain"], release, maximum, thickness("final_thickness"))
+    return _Fields(site.ground, release, maximum, thickness("final_thickness"))
 
 
 def _places(profile: Section, threshold: float) -> list[float]:

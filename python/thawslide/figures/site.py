@@ -46,6 +46,11 @@ class Site:
         return make_scene(terrain, box_about(boxes) if boxes else terrain.grid.box)
 
     @property
+    def ground(self) -> Map:
+        """The elevation [m] above which thicknesses are: of the cells if they follow the terrain, or of the terrain."""
+        return self.maps["ground" if "ground" in self.maps else "terrain"]
+
+    @property
     def threshold(self) -> float:
         """Thickness [m] above which a cell counts as covered."""
         return float(self.run.section("maps").get("arrival_thickness", 0.0))

@@ -42,7 +42,6 @@ def map_view(run: Run) -> View:
     indices = spaced(len(run.times), MOST_SNAPSHOTS)
     packing = Packing()
     fields, times = _moving_fields(run, site, grid, indices)
-    terrain = site.maps["terrain"]
     east, north = np.meshgrid(grid.x, grid.y)
     parts: dict[str, Any] = {
         "kind": "map",
@@ -50,7 +49,7 @@ def map_view(run: Run) -> View:
         "timeWords": run.time_reference.label,
         "fields": fields_with_values([*fields, *_static_fields(run, site)], packing),
         "grid": {"x": grid.x0, "y": grid.y0, "dx": grid.cell_x, "dy": grid.cell_y, "columns": grid.columns},
-        "elevation": packing.add(terrain.at(east, north)),
+        "elevation": packing.add(site.ground.at(east, north)),
         "shade": _shade(site),
         "shadeBox": site.scene.terrain.grid.box,
         "box": site.scene.box,

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "../support/channel_on_dem.hpp"
 #include "../support/following_plane.hpp"
 #include "../support/reproducible_runs.hpp"
+#include "sim/map_grid.hpp"
+#include "sim/run_records.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -58,6 +61,35 @@ TEST(FollowingCells, BodiesHaveTheirExactVolume) {
     area += particles.volume(p);
   }
   EXPECT_NEAR(area, 154.0 * 33.0, 1e-9 * area);
+}
+
+// `ground` is a map of the ground of the cells, which the waves of the gully miss by a metre.
+TEST(FollowingCells, MapsAreRelativeToTheGroundOfTheCells) {
+  const auto slide = slide_in_gully();
+  RunRecords<3> records(*slide, slide->site());
+  records.start(*slide);
+  const Raster thickness = records.maps()->raster(map_kinds().front(), MapExtent::whole_grid),
+               ground = ground_of_cells(slide->parameters(), slide->site(), slide->model());
+  ASSERT_EQ(ground.values.size(), thickness.values.size());
+  const auto terrain = [&](double x, double y) {
+    const Vector<double, 3>& origin = slide->model().origin;
+    return slide->model().following->terrain().height({x - origin[0], y - origin[1]}) + origin[2];
+  };
+  double volume = 0.0, most = 0.0;
+  for (int j = 0; j < ground.rows; ++j) {
+    for (int i = 0; i < ground.columns; ++i) {
+      const double here = thickness.at(i, j);
+      volume += std::isnan(here) ? 0.0 : here * ground.cell_x * ground.cell_y;
+      most =
+          std::isnan(here) ? most : std::max(most, std::abs(ground.at(i, j) - terrain(ground.x_of(i), ground.y_of(j))));
+    }
+  }
+  const Raster& release = slide->site().releases.begin()->second.thickness;
+  const double released =
+      std::accumulate(release.values.begin(), release.values.end(), 0.0) * release.cell_x * release.cell_y;
+  EXPECT_NEAR(volume, released, 1e-9 * released);
+  EXPECT_GT(most, 0.5);
+  EXPECT_LT(most, 1.5);
 }
 
 }  // namespace
