@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "config/body_layers.hpp"
 #include "config/checks.hpp"
@@ -37,6 +38,15 @@ void check_cells(const Case& checked, Reading& reading) {
                    fmt::format("grid.follows_terrain: cells that follow the terrain do not support all options of this "
                                "case (found {}; allowed: none of these). Set grid.follows_terrain = false.",
                                found));
+  }
+  if (reading.are_valid({"terrain.slope", "grid.steepest"}) && checked.terrain.kind == TerrainKind::plane &&
+      std::abs(checked.terrain.slope) > checked.grid.steepest) {
+    reading.report(
+        "terrain.slope",
+        fmt::format("terrain.slope is {:g} degrees, steeper than cells may follow the terrain (grid.steepest "
+                    "is {:g} degrees; allowed: up to 85). Increase grid.steepest, or set "
+                    "grid.follows_terrain = false.",
+                    checked.terrain.slope, checked.grid.steepest));
   }
 }
 

@@ -91,6 +91,14 @@ std::vector<Parameter<Grid>> grid_parameters() {
                 {.key = "follows_terrain",
                  .text = "make the cells follow the terrain, so that the ground is on a layer of nodes everywhere; "
                          "the vertical side of a cell stays grid.cell"}),
+      parameter(&Grid::steepest,
+                {.key = "steepest",
+                 .unit = "degrees",
+                 .range = between(30, 85),
+                 .text = "slope limit of cells that follow the terrain: columns that rise more steeply from others are "
+                         "lowered, because the time step shortens with the slope"})
+          .only_if("when grid.follows_terrain is true", "follows_terrain",
+                   [](const Case&, const Grid& grid) { return grid.follows_terrain; }),
   };
 }
 

@@ -10,6 +10,7 @@
 #include "sim/body_warnings.hpp"
 #include "sim/map_grid.hpp"
 #include "sim/thin_walls.hpp"
+#include "sim/unresolved_terrain.hpp"
 
 namespace thawslide::run {
 
@@ -22,7 +23,11 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
   warnings.add(config::warning_of_late_values(parameters));
   warnings.add(sim::body_warnings(parameters, bodies));
   warnings.add(sim::warning_of_bodies_apart(simulation));
-  warnings.add(sim::warning_of_thin_walls(parameters, simulation.site()));
+  if (simulation.model().following) {
+    warnings.add(sim::warnings_of_unresolved_terrain(simulation));
+  } else {
+    warnings.add(sim::warning_of_thin_walls(parameters, simulation.site()));
+  }
 }
 
 template <int Dim>

@@ -286,8 +286,9 @@ template <int Dim>
 void follow_ground(const config::Case& parameters, Model<Dim>& model) {
   const typename terrain::Surface<Dim>::Point extent =
       model.constraints.extent.template head<Dim - 1>().template cast<double>();
-  model.following = std::make_shared<terrain::FollowingGround<Dim>>(model.ground, parameters.grid.cell, extent,
-                                                                    model.motion.sizes, model.motion.width);
+  model.following =
+      std::make_shared<terrain::FollowingGround<Dim>>(model.ground, parameters.grid.cell, extent, model.motion.sizes,
+                                                      model.motion.width, std::tan(radians(parameters.grid.steepest)));
   model.ground = model.following;
   model.constraints.faces[2 * (Dim - 1)] = model.constraints.faces[2 * Dim - 1] = config::BoundaryKind::open;
   model.motion.sides.lower[Dim - 1] = model.motion.sides.upper[Dim - 1] = mpm::PrescribedSides<Dim>::none;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <queue>
 
 #include "base/parallel.hpp"
 #include "mpm/shape.hpp"
@@ -22,6 +24,16 @@ constexpr double most_bend = 3.0;
 // Bends from which a node's plane counts for the clearance, and beyond which it counts fully.
 constexpr double kink_begins = 1.01, kink_ends = 1.05;
 
+// Column of a chunk by its number in it, x fastest.
+template <int Dim>
+std::array<int, Dim - 1> column_of_chunk(std::array<int, Dim - 1> first, int number) {
+  for (int& along : first) {
+    along += number % chunk_edge;
+    number /= chunk_edge;
+  }
+  return first;
+}
+
 // Whole number, limited to a range; the lower end for a number that is not finite.
 int limited(double number, int from, int to) {
   return static_cast<int>(std::max(static_cast<double>(from), std::min(number, static_cast<double>(to))));
@@ -31,7 +43,7 @@ int limited(double number, int from, int to) {
 
 template <int Dim>
 FollowingGround<Dim>::FollowingGround(std::shared_ptr<const Surface<Dim>> terrain, double cell, const Point& extent,
-                                      const mpm::BodySizes& sizes, mpm::SectionWidth width)
+                                      const mpm::BodySizes& sizes, mpm::SectionWidth width, double steepest)
     : terrain_(std::move(terrain)), cell_(cell), sizes_(sizes), width_(std::move(width)) {
   std::size_t count = 1;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -40,6 +52,7 @@ FollowingGround<Dim>::FollowingGround(std::shared_ptr<const Surface<Dim>> terrai
     count *= static_cast<std::size_t>(chunks_[a]);
   }
   made_ = std::vector<std::atomic<double*>>(count);
+  limit_slopes(steepest);
 }
 
 template <int Dim>
@@ -49,26 +62,37 @@ FollowingGround<Dim>::~FollowingGround() {
   }
 }
 
+template <int Dim>
+typename FollowingGround<Dim>::Column FollowingGround<Dim>::first_of_chunk(std::size_t chunk) const {
+  Column first{};
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    first[a] = static_cast<int>(chunk % static_cast<std::size_t>(chunks_[a])) * chunk_edge - margin;
+    chunk /= static_cast<std::size_t>(chunks_[a]);
+  }
+  return first;
+}
+
+template <int Dim>
+typename FollowingGround<Dim>::Point FollowingGround<Dim>::place_of(const Column& column) const {
+  Point place;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    place[a] = static_cast<double>(column[static_cast<std::size_t>(a)]) * cell_;
+  }
+  return place;
+}
+
 // Two threads may compute the same chunk; one of the equal results is kept.
 template <int Dim>
-const double* FollowingGround<Dim>::heights_of_chunk(std::size_t chunk) const {
+double* FollowingGround<Dim>::heights_of_chunk(std::size_t chunk) const {
   double* known = made_[chunk].load(std::memory_order_acquire);
   if (known != nullptr) {
     return known;
   }
-  Column first{};
-  std::size_t rest = chunk;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    first[a] = static_cast<int>(rest % static_cast<std::size_t>(chunks_[a])) * chunk_edge - margin;
-    rest /= static_cast<std::size_t>(chunks_[a]);
-  }
+  const Column first = first_of_chunk(chunk);
   auto heights = std::make_unique<double[]>(columns_of_chunk<Dim>);
   for (int c = 0; c < columns_of_chunk<Dim>; ++c) {
-    Point at;
-    for (int a = 0, of_axis = c; a + 1 < Dim; ++a, of_axis /= chunk_edge) {
-      at[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + of_axis % chunk_edge) * cell_;
-    }
-    heights[static_cast<std::size_t>(c)] = terrain_->column_means(at, cell_).height;
+    heights[static_cast<std::size_t>(c)] =
+        terrain_->column_means(place_of(column_of_chunk<Dim>(first, c)), cell_).height;
   }
   if (made_[chunk].compare_exchange_strong(known, heights.get(), std::memory_order_acq_rel)) {
     return heights.release();
@@ -77,7 +101,7 @@ const double* FollowingGround<Dim>::heights_of_chunk(std::size_t chunk) const {
 }
 
 template <int Dim>
-double FollowingGround<Dim>::column_height(const Column& column) const {
+double& FollowingGround<Dim>::column_height(const Column& column) const {
   std::size_t chunk = 0, place = 0;
   for (std::size_t a = Dim - 1; a-- > 0;) {
     const auto along = static_cast<std::size_t>(std::clamp(column[a] + margin, 0, columns_[a] - 1));
@@ -85,6 +109,81 @@ double FollowingGround<Dim>::column_height(const Column& column) const {
     place = place * chunk_edge + along % chunk_edge;
   }
   return heights_of_chunk(chunk)[place];
+}
+
+// Chunks with terrain steeper than a gradient within reach of the hat functions of its columns and their neighbours.
+template <int Dim>
+std::vector<std::size_t> FollowingGround<Dim>::chunks_steeper_than(double steepest) const {
+  std::vector<std::uint8_t> is_steep(made_.size());
+  parallel_for(made_.size(), [&](std::size_t chunk) {
+    const Point from = place_of(first_of_chunk(chunk)) - Point::Constant(2.0 * cell_);
+    is_steep[chunk] = terrain_->steepest(from, from + Point::Constant((chunk_edge + 3) * cell_)) > steepest ? 1 : 0;
+    if (is_steep[chunk] != 0) {
+      static_cast<void>(heights_of_chunk(chunk));
+    }
+  });
+  std::vector<std::size_t> found;
+  for (std::size_t chunk = 0; chunk < made_.size(); ++chunk) {
+    if (is_steep[chunk] != 0) {
+      found.push_back(chunk);
+    }
+  }
+  return found;
+}
+
+// Distances are those of paths through neighbouring columns, diagonals included. Heights are processed in ascending
+// order, so that each column is lowered once.
+template <int Dim>
+void FollowingGround<Dim>::limit_slopes(double steepest) {
+  constexpr double round_off = 1e-9;  // of a cell
+  using Height = std::pair<double, Column>;
+  std::priority_queue<Height, std::vector<Height>, std::greater<>> lower;
+  const auto compare_neighbours = [&](const Column& column) {
+    const double from = column_height(column);
+    for (int j = -1; j <= (Dim == 3 ? 1 : -1); ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const std::array<int, 2> step{i, Dim == 3 ? j : 0};
+        Column about = column;
+        bool exists = true;
+        for (std::size_t a = 0; a + 1 < Dim; ++a) {
+          about[a] += step[a];
+          exists = exists && about[a] >= -margin && about[a] < columns_[a] - margin;
+        }
+        const double height = from + steepest * std::hypot(step[0], step[1]) * cell_;
+        if (exists && column_height(about) > height + round_off * cell_) {
+          lower.emplace(height, about);
+        }
+      }
+    }
+  };
+  for (const std::size_t chunk : chunks_steeper_than(steepest)) {
+    for (int c = 0; c < columns_of_chunk<Dim>; ++c) {
+      compare_neighbours(column_of_chunk<Dim>(first_of_chunk(chunk), c));
+    }
+  }
+  std::map<Column, double> lowered;  // with the former height
+  while (!lower.empty()) {
+    const auto [height, column] = lower.top();
+    lower.pop();
+    if (double& present = column_height(column); present > height) {
+      lowered.emplace(column, present);
+      present = height;
+      compare_neighbours(column);
+    }
+  }
+  for (const auto& [column, former] : lowered) {
+    bool is_inside = terrain_->is_known(place_of(column));
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      is_inside = is_inside && column[a] >= 0 && column[a] < columns_[a] - 2 * margin;
+    }
+    if (is_inside) {
+      ++lowering_.columns;
+      if (const double change = former - column_height(column); change > lowering_.largest) {
+        lowering_.largest = change;
+        lowering_.place = place_of(column);
+      }
+    }
+  }
 }
 
 template <int Dim>

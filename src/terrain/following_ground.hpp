@@ -3,7 +3,9 @@
 // particles meet is B = sum S_i b_i. With b interpolated linearly between columns, and the slope grad b,
 //   G_i = integral of S_i (grad b, -1) dx dy,   n_i = G_i/|G_i|,
 //   chi_i = integral of S_i dA over the terrain / |G_i|,
-// where chi counts only bends that b resolves. All are computed when the sliding mass arrives.
+// where chi counts only bends that b resolves. All are computed when the sliding mass arrives, except about slopes
+// above a limit s: there, columns are lowered at the start to
+//   b_i = min over j of (mean height of column j + s |x_i - x_j|).
 #pragma once
 
 #include <atomic>
@@ -26,8 +28,9 @@ class FollowingGround final : public Surface<Dim> {
 
   // terrain: the ground as it is. extent: of the domain [m]; beyond it, columns have the height of the nearest one.
   // sizes: half sizes of particles by body, in cells; those of the first body define height() and gradient().
+  // steepest: limit of the gradient between columns.
   FollowingGround(std::shared_ptr<const Surface<Dim>> terrain, double cell, const Point& extent,
-                  const mpm::BodySizes& sizes, mpm::SectionWidth width);
+                  const mpm::BodySizes& sizes, mpm::SectionWidth width, double steepest);
   ~FollowingGround() override;
 
   // B and its gradient. Over more than a cell, the gradient is that of the terrain.
@@ -35,6 +38,9 @@ class FollowingGround final : public Surface<Dim> {
   [[nodiscard]] Point gradient(const Point& point, double width) const override;
   [[nodiscard]] double highest(const Point& from, const Point& to) const override {
     return terrain_->highest(from, to);
+  }
+  [[nodiscard]] double steepest(const Point& from, const Point& to) const override {
+    return terrain_->steepest(from, to);
   }
   [[nodiscard]] bool is_known(const Point& point) const override { return terrain_->is_known(point); }
   [[nodiscard]] bool is_known(const Point& from, const Point& to) const override {
@@ -46,6 +52,14 @@ class FollowingGround final : public Surface<Dim> {
 
   // The ground as it is.
   [[nodiscard]] const Surface<Dim>& terrain() const { return *terrain_; }
+
+  // Columns of the domain on known ground that the limit of slopes has lowered.
+  struct Lowering {
+    std::size_t columns = 0;
+    double largest = 0.0;         // change of height [m]
+    Point place = Point::Zero();  // of that column
+  };
+  [[nodiscard]] const Lowering& lowering() const { return lowering_; }
 
   // Nodes of a grid that follows the ground: those of layer 0 are on it. `plane` and `plane_scale` give clearances
   // along the vertical.
@@ -69,17 +83,22 @@ class FollowingGround final : public Surface<Dim> {
     [[nodiscard]] double bend() const { return area / resultant; }
   };
 
-  [[nodiscard]] double column_height(const Column& column) const;
+  [[nodiscard]] double& column_height(const Column& column) const;
+  [[nodiscard]] Column first_of_chunk(std::size_t chunk) const;
+  [[nodiscard]] Point place_of(const Column& column) const;
+  [[nodiscard]] std::vector<std::size_t> chunks_steeper_than(double steepest) const;
+  void limit_slopes(double steepest);
   [[nodiscard]] Below below(const Point& point, double half) const;
   [[nodiscard]] Resolved resolved(const Column& column) const;
   [[nodiscard]] double largest_bend_about(const Column& column) const;
-  [[nodiscard]] const double* heights_of_chunk(std::size_t chunk) const;
+  [[nodiscard]] double* heights_of_chunk(std::size_t chunk) const;
 
   std::shared_ptr<const Surface<Dim>> terrain_;
   double cell_;
   mpm::BodySizes sizes_;
   mpm::SectionWidth width_;
-  Column columns_{}, chunks_{};                     // along each axis, including the margins
+  Column columns_{}, chunks_{};  // along each axis, including the margins
+  Lowering lowering_;
   mutable std::vector<std::atomic<double*>> made_;  // heights by chunk, x fastest; null: not yet computed
 };
 

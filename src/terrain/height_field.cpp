@@ -211,6 +211,22 @@ HeightField::ColumnMeans HeightField::column_means(const Point& at, double cell_
   return {means.height / weights, means.area / weights};
 }
 
+// Gradients of triangles are means of the rises along the sides of their cell.
+double HeightField::steepest(const Point& from, const Point& to) const {
+  const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
+  double found = 0.0;
+  for (int row = rows.first; row <= rows.last; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      const double south_west = height_at(column, row), south_east = height_at(column + 1, row),
+                   north_west = height_at(column, row + 1), north_east = height_at(column + 1, row + 1);
+      const double along_x = std::max(std::abs(south_east - south_west), std::abs(north_east - north_west)),
+                   along_y = std::max(std::abs(north_west - south_west), std::abs(north_east - south_east));
+      found = std::max(found, std::hypot(along_x / points_.cell_x, along_y / points_.cell_y));
+    }
+  }
+  return found;
+}
+
 double HeightField::highest(const Point& from, const Point& to) const {
   // Beyond the outermost points, the ground is as high as at the edge.
   const Point least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());

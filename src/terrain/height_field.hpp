@@ -29,6 +29,7 @@ class HeightField final : public Surface<3> {
   // Exact to round-off.
   [[nodiscard]] ColumnMeans column_means(const Point& at, double cell) const override;
   [[nodiscard]] double highest(const Point& from, const Point& to) const override;
+  [[nodiscard]] double steepest(const Point& from, const Point& to) const override;
 
   // Area and space are exact to round-off. The normal is along the integral of S n dA if the node has area, otherwise
   // towards the nearest point of the surface. If the surface is further than `reach_in_cells`, the distance is that

@@ -131,6 +131,14 @@ Polyline::LinearFraction Polyline::linear_fraction(double x, double z, double ce
 
 // The integrands are polynomials of second degree between the points of the polyline, for which Simpson's rule is
 // exact.
+double Polyline::steepest(double from, double to) const {
+  double found = 0.0;
+  for (std::size_t k = segment(from), last = segment(to); k <= last; ++k) {
+    found = std::max(found, std::abs((height_[k + 1] - height_[k]) / (x_[k + 1] - x_[k])));
+  }
+  return found;
+}
+
 Polyline::HatMeans Polyline::hat_means(double x, double cell) const {
   HatMeans means;
   const auto add_half = [&](double begin, double end) {

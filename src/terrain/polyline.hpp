@@ -16,8 +16,9 @@ class Polyline {
   [[nodiscard]] double height(double x) const;
   // dh/dx of the segment that contains x.
   [[nodiscard]] double gradient(double x) const;
-  // Highest point over [from, to].
+  // Highest point over [from, to], and largest |dh/dx| of the segments there.
   [[nodiscard]] double highest(double from, double to) const;
+  [[nodiscard]] double steepest(double from, double to) const;
 
   struct Nearest {
     double distance;           // [m], positive above the ground

@@ -31,6 +31,9 @@ class ProfileSurface final : public Surface<Dim> {
   [[nodiscard]] double highest(const Point& from, const Point& to) const override {
     return line_.highest(from[0], to[0]);
   }
+  [[nodiscard]] double steepest(const Point& from, const Point& to) const override {
+    return line_.steepest(from[0], to[0]);
+  }
   void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const override;
 
   [[nodiscard]] GroundAtNode<Dim> at_node(const Vector<double, Dim>& position, double cell) const;

@@ -43,6 +43,9 @@ class Surface {
   // Highest elevation over the rectangle between two places [m].
   [[nodiscard]] virtual double highest(const Point& from, const Point& to) const = 0;
 
+  // Upper bound of the slope over the rectangle between two places, as a gradient.
+  [[nodiscard]] virtual double steepest(const Point& from, const Point& to) const = 0;
+
   // Means over the hat function of a column of nodes, max(0, 1 - |x - x_at|/cell) along each axis: elevation [m], and
   // area of the ground per horizontal area.
   struct ColumnMeans {

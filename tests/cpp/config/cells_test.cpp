@@ -23,5 +23,14 @@ TEST(Cells, ThatFollowTheTerrainListAllUnavailableOptions) {
             "grid.follows_terrain = false.");
 }
 
+TEST(Cells, DoNotFollowAPlaneAboveTheirSlopeLimit) {
+  const std::string plane = changed({{"[grid]", "[grid]\nfollows_terrain = true\nsteepest = 60"},
+                                     {"type = \"flat\"", "type = \"plane\"\nslope = 70"}});
+  EXPECT_EQ(
+      error_of_text(plane),
+      "FOLDER/case.toml:12:9: terrain.slope is 70 degrees, steeper than cells may follow the terrain (grid.steepest is "
+      "60 degrees; allowed: up to 85). Increase grid.steepest, or set grid.follows_terrain = false.");
+}
+
 }  // namespace
 }  // namespace thawslide::config

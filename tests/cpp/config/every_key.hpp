@@ -113,7 +113,7 @@ inline std::string release_of_a_surface() {
                 "raster = \"inputs/codes.tif\"\ncode = 3\n"},
                {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
                 "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"},
-               {"[grid]", "[grid]\nfollows_terrain = true"}},
+               {"[grid]", "[grid]\nfollows_terrain = true\nsteepest = 70.0"}},
               release_on_dem);
   text.resize(text.find("[contact]"));  // refused with columns
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");

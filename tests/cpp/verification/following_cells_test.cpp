@@ -97,7 +97,7 @@ class RandomParticles {
     material.law = physics::LinearElastic{};
     model_.materials.push_back(material);
     ground_ = std::make_unique<terrain::FollowingGround<Dim>>(terrain_, cell, Vector<double, Dim - 1>::Constant(extent),
-                                                              model_.sizes, mpm::SectionWidth());
+                                                              model_.sizes, mpm::SectionWidth(), HUGE_VAL);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> along(4.0 * cell, extent - 4.0 * cell), above(-cell, 4.0 * cell),
         number(-1.0, 1.0);

@@ -62,7 +62,7 @@ double distance_of_loss(double wall_angle, double foot) {
   constexpr double height = 60.0, cell = 5.0;
   write_profile(
       {{-100.0, 0.0}, {foot, 0.0}, {foot + height / std::tan(wall_angle * pi / 180.0), height}, {400.0, height}});
-  Simulation<2> simulation(sliding_block({}));
+  Simulation<2> simulation(sliding_block({"grid.steepest=85"}));
   double edge = 50.0;
   while (Centre(simulation).velocity[0] > 0.99 * 20.0 && simulation.time() < 1.0) {
     simulation.step(simulation.next_step(4.0));
@@ -95,7 +95,7 @@ TEST(FollowingTerrain, ABlockFliesOverACliff) {
                 "parabola of the centre of mass after the rear has left the edge; constant energy", "free fall");
   constexpr double edge = 60.0, height = 200.0;
   write_profile({{-100.0, 0.0}, {edge, 0.0}, {edge + height / std::tan(80.0 * pi / 180.0), -height}, {400.0, -height}});
-  Simulation<2> simulation(sliding_block({"grid.max=[350.0,80.0]"}));
+  Simulation<2> simulation(sliding_block({"grid.max=[350.0,80.0]", "grid.steepest=85"}));
   const auto energy = [&] {
     const auto row = sim::history_row(simulation);
     return value_of(row, "kinetic_J") + value_of(row, "potential_J");
