@@ -24,7 +24,7 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
   warnings.add(sim::body_warnings(parameters, bodies));
   warnings.add(sim::warning_of_bodies_apart(simulation));
   if (simulation.model().following) {
-    warnings.add(sim::warnings_of_unresolved_terrain(simulation));
+    warnings.add(sim::warnings_of_unresolved_terrain(simulation, bodies));
   } else {
     warnings.add(sim::warning_of_thin_walls(parameters, simulation.site()));
   }

@@ -1,15 +1,23 @@
-// Terrain that cells which follow it do not represent.
+// Terrain that cells which follow it do not represent: slopes above their limit, narrow dykes and gullies.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "sim/body_figures.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 
-// Warning about columns that the limit of slopes has lowered. Empty on level cells.
+// Warnings about columns that were lowered, and about the narrow dyke and the narrow gully that lose most of their
+// height. These are crests and thalwegs of the terrain within the domain that
+// - are lower than the top of the bodies, which may therefore reach them,
+// - rise above (fall below) the terrain on both sides within two cells (four for gullies) by more than a quarter of the
+//   median thickness of the thickest body, and reach two thirds of this height within half the distance,
+// - have less than two thirds of this height in the ground of the grid.
+// Empty on level cells.
 template <int Dim>
-[[nodiscard]] std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<Dim>& simulation);
+[[nodiscard]] std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<Dim>& simulation,
+                                                                      const std::vector<BodyFigures>& bodies);
 
 }  // namespace thawslide::sim
