@@ -25,7 +25,6 @@ void check_cells(const Case& checked, Reading& reading) {
       {checked.mechanics.shape_function != ShapeFunction::ugimp, "mechanics.shape_function other than \"ugimp\""},
       {!checked.frames.empty(), "a [frame]"},
       {has_pairs, "frictional contact between bodies"},
-      {checked.bed.law != BedLaw::none, "an erodible bed (bed.law)"},
       {is_prescribed(checked.heat.boundary[2 * v]) || is_prescribed(checked.heat.boundary[2 * v + 1]),
        "heat.boundary at the bottom or top of the domain"},
   };

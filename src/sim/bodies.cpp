@@ -37,7 +37,7 @@ void seed_columns(const config::Case& parameters, const Model<Dim>& model, const
       }
       const Vector<double, Dim - 1> below = (position - model.origin).template head<Dim - 1>();
       const double terrain = model.following->terrain().height(below) + model.origin[Dim - 1];
-      const double ground = model.following->height(below) + model.origin[Dim - 1];
+      const double ground = model.following->height(below, static_cast<std::size_t>(number)) + model.origin[Dim - 1];
       for (const auto& [low, high] : shape.parts_over(position[0])) {
         const bool stands = low <= terrain + tie;
         const double bottom = stands ? ground : std::max(low, ground), top = stands ? high + (ground - terrain) : high;

@@ -227,7 +227,7 @@ typename FollowingGround<Dim>::Below FollowingGround<Dim>::below(const Point& po
 
 template <int Dim>
 double FollowingGround<Dim>::height(const Point& point) const {
-  return below(point, static_cast<double>(sizes_.half(0))).height;
+  return height(point, 0);
 }
 
 template <int Dim>

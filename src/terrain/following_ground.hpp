@@ -33,6 +33,10 @@ class FollowingGround final : public Surface<Dim> {
                   const mpm::BodySizes& sizes, mpm::SectionWidth width, double steepest);
   ~FollowingGround() override;
 
+  // B below particles of a body.
+  [[nodiscard]] double height(const Point& point, std::size_t body) const {
+    return below(point, static_cast<double>(sizes_.half(body))).height;
+  }
   // B and its gradient. Over more than a cell, the gradient is that of the terrain.
   [[nodiscard]] double height(const Point& point) const override;
   [[nodiscard]] Point gradient(const Point& point, double width) const override;

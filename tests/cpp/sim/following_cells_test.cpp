@@ -1,5 +1,5 @@
-// Runs on cells that follow the ground: bitwise identical for any number of threads and after a restart, and particles
-// of a body have its exact volume.
+// Runs on cells that follow the ground: bitwise identical for any number of threads and after a restart, balances with
+// an erodible bed, and particles of a body have its exact volume.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,19 +16,23 @@ namespace {
 
 using namespace testing_support;
 
+template <int Dim, class Make, class Visit>
+void expect_the_same_bits(const Make& make, int steps, const Visit& visit) {
+  expect_reproducible_run<Dim>(make, steps, {{2, 7, -1}, {3, 1, steps / 2}, {4, 3, steps - 1}}, visit);
+}
 template <int Dim, class Make>
 void expect_the_same_bits(const Make& make, int steps) {
-  expect_reproducible_run<Dim>(make, steps, {{2, 7, -1}, {3, 1, steps / 2}, {4, 3, steps - 1}},
-                               [](const Simulation<Dim>& /*simulation*/, int /*step*/) {});
+  expect_the_same_bits<Dim>(make, steps, [](const Simulation<Dim>& /*simulation*/, int /*step*/) {});
+}
+
+std::unique_ptr<Simulation<2>> slide_on_plane(double slope, const Sets& sets = {}) {
+  const Incline plane{slope};
+  return std::make_unique<Simulation<2>>(body_on_plane(
+      plane, 10.0, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)}, sets));
 }
 
 TEST(FollowingCells, ResultsAreReproducibleInThePlane) {
-  const Incline plane{30.0};
-  const auto make = [&] {
-    return std::make_unique<Simulation<2>>(body_on_plane(
-        plane, 10.0, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)}));
-  };
-  expect_the_same_bits<2>(make, 60);
+  expect_the_same_bits<2>([] { return slide_on_plane(30.0); }, 60);
 }
 
 // Gully with waves along it.
@@ -36,7 +40,7 @@ double gully(double x, double y) {
   return 0.002 * y * y - 0.4 * x + 3.0 * std::sin(0.1 * x) + 2.0 * std::sin(0.13 * y);
 }
 
-std::unique_ptr<Simulation<3>> slide_in_gully() {
+std::unique_ptr<Simulation<3>> slide_in_gully(const Sets& sets = {}) {
   const Place half(200.0, 200.0);
   const auto slide =
       release_on_dem({20.0, 0.01, 10.0, {-200.0, -200.0, -200.0}, {200.0, 200.0, 300.0}}, loose_rock, 20.0);
@@ -44,11 +48,46 @@ std::unique_ptr<Simulation<3>> slide_in_gully() {
   const Raster thickness = thickness_between(-half, half, 5.0, [](double x, double y) {
     return std::max(0.0, 30.0 * (1.0 - std::pow((x + 50.0) / 60.0, 2) - std::pow(y / 60.0, 2)));
   });
-  return std::make_unique<Simulation<3>>(case_on_dem(slide, "grid.follows_terrain=true; time.stepping=adaptive"),
+  return std::make_unique<Simulation<3>>(case_on_dem(slide, "grid.follows_terrain=true; time.stepping=adaptive" + sets),
                                          site_of(ground, thickness));
 }
 
-TEST(FollowingCells, ResultsAreReproducibleInSpace) { expect_the_same_bits<3>(slide_in_gully, 30); }
+TEST(FollowingCells, ResultsAreReproducibleInSpace) {
+  expect_the_same_bits<3>([] { return slide_in_gully(); }, 30);
+}
+
+Sets bed_of(const std::string& material, const std::string& velocity) {
+  return "heat.enabled=true; bed.law=strength; bed.depth=2; bed.strength=100; bed.depth_per_slip=0.2; "
+         "bed.porosity=0.9; bed.temperature=-0.5; bed.particles_per_axis=4; bed.material=" +
+         material + "; " + velocity;
+}
+
+template <int Dim, class Make>
+void expect_closed_budgets_with_a_bed(const Make& make, int steps) {
+  expect_the_same_bits<Dim>(make, steps, [&](const Simulation<Dim>& simulation, int step) {
+    expect_closed_budgets(simulation);
+    const HistoryRow row = history_row(simulation);
+    const double mass = simulation.budget().initial_mass;
+    EXPECT_NEAR(value_of(row, "bed_residual_kg") / mass, 0.0, 1e-13);
+    EXPECT_NEAR(value_of(row, "bed_residual_J") / value_of(row, "kinetic_J"), 0.0, 1e-13);
+    EXPECT_TRUE(step < steps || simulation.particles().size() > simulation.particles_at_start() + 20);
+    const auto& particles = simulation.particles();
+    const double half = 0.5 * static_cast<double>(simulation.grid().cell()) / 4.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      EXPECT_TRUE(particles.body(p) == 0 || std::abs(particles.contact_offset(p) - half) < 1e-9 * half)
+          << "the particle was created at a height of " << particles.contact_offset(p) << " m";
+    }
+  });
+}
+
+TEST(FollowingCells, EntrainABedWithClosedBudgetsInThePlane) {
+  const auto make = [] { return slide_on_plane(55.0, bed_of("rock", "body.block.velocity=[11.5,-16.4]")); };
+  expect_closed_budgets_with_a_bed<2>(make, 60);
+}
+TEST(FollowingCells, EntrainABedWithClosedBudgetsInSpace) {
+  const auto make = [] { return slide_in_gully(bed_of("debris", "body.slide.velocity=[18,0,-7]")); };
+  expect_closed_budgets_with_a_bed<3>(make, 30);
+}
 
 // Inclined ends are cut into columns, whose particles are then scaled.
 TEST(FollowingCells, BodiesHaveTheirExactVolume) {
