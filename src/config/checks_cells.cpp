@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/body_layers.hpp"
 #include "config/checks.hpp"
 
 namespace thawslide::config {
@@ -15,7 +14,6 @@ void check_cells(const Case& checked, Reading& reading) {
   }
   const auto v = static_cast<std::size_t>(checked.general.dimension - 1);
   const auto is_prescribed = [](const HeatBoundary& side) { return side.kind != HeatBoundaryKind::insulated; };
-  const bool has_pairs = checked.contact.between_bodies == BodyContact::frictional || !checked.contact_pairs.empty();
   const struct {
     bool is_requested;
     const char* what;
@@ -24,7 +22,6 @@ void check_cells(const Case& checked, Reading& reading) {
       {checked.terrain.form == TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
       {checked.mechanics.shape_function != ShapeFunction::ugimp, "mechanics.shape_function other than \"ugimp\""},
       {!checked.frames.empty(), "a [frame]"},
-      {has_pairs, "frictional contact between bodies"},
       {is_prescribed(checked.heat.boundary[2 * v]) || is_prescribed(checked.heat.boundary[2 * v + 1]),
        "heat.boundary at the bottom or top of the domain"},
   };

@@ -83,6 +83,7 @@ Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& qua
 template <int Dim>
 struct ParticleAbout {
   Vector<Real, Dim> position;         // [m]
+  Vector<Real, Dim - 1> slope;        // of the ground, only on cells that follow it; else zero
   Real half;                          // half size of its box [m]
   typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
 };
@@ -101,12 +102,18 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
     const auto& tile = grid.tiles()[static_cast<std::size_t>(t)];
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
+      const ScalarIndex at{p};
       ParticleAbout<Dim> one;
-      one.position = particles.position.template load_vector<Dim>(ScalarIndex{p});
+      one.position = particles.position.template load_vector<Dim>(at);
+      one.slope.setZero();
+      if (grid.mapping().follows_ground) {
+        one.slope = particles.ground_slope.template load_vector<Dim - 1>(at);
+      }
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {
-        const Real along = one.position[static_cast<int>(a)] * grid.inverse_cell() + Real(0.5);
+        const Real along =
+            grid.mapping().coordinate(particles, at, static_cast<int>(a)) * grid.inverse_cell() + Real(0.5);
         one.nearest[a] = static_cast<int>(std::floor(along)) - first_node[a];
         reaches = reaches && one.nearest[a] >= -1 && one.nearest[a] <= T::edge;
       }
@@ -118,17 +125,20 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
   return about;
 }
 
-// Extent of a particle's box along a normal [m], as in contact with the ground (terrain::set_contact_offset).
+// Extent of a particle's box along a normal [m], as in contact with the ground (terrain::set_contact_offset). On cells
+// that follow the ground, the upper and lower sides of the box are parallel to it.
 template <int Dim>
 struct Edge {
   Real along;
   const ParticleAbout<Dim>* of;
 };
 
-// Selects the particles that reach a node.
+// Selects the particles that reach a node; returns the sum of their slopes.
 template <int Dim>
-void find_seen(const std::vector<ParticleAbout<Dim>>& about, std::size_t node, std::vector<Edge<Dim>>& seen) {
+Vector<Real, Dim - 1> find_seen(const std::vector<ParticleAbout<Dim>>& about, std::size_t node,
+                                std::vector<Edge<Dim>>& seen) {
   const typename Tile<Dim>::Index here = Tile<Dim>::node({}, static_cast<int>(node));
+  Vector<Real, Dim - 1> slope = Vector<Real, Dim - 1>::Zero();
   seen.clear();
   for (const ParticleAbout<Dim>& one : about) {
     bool sees = true;
@@ -137,16 +147,20 @@ void find_seen(const std::vector<ParticleAbout<Dim>>& about, std::size_t node, s
     }
     if (sees) {
       seen.push_back({Real(0), &one});
+      slope += one.slope;
     }
   }
+  return slope;
 }
 
 // Computes the edges of particles on the side given by a sign; returns the foremost one.
 template <int Dim>
 Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim>>& seen) {
-  const Real stretch = sign * normal.cwiseAbs().maxCoeff();
   Real foremost = -std::numeric_limits<Real>::max();
   for (Edge<Dim>& edge : seen) {
+    Vector<Real, Dim> on_grid = normal;
+    on_grid.template head<Dim - 1>() += normal[Dim - 1] * edge.of->slope;
+    const Real stretch = sign * on_grid.cwiseAbs().maxCoeff();
     edge.along = edge.of->position.dot(normal) + stretch * edge.of->half;
     foremost = std::max(foremost, sign * edge.along);
   }
@@ -215,24 +229,24 @@ bool BodyContact<Dim>::find_meetings(const Nodes<Dim>& nodes, Pair& pair) {
   return any;
 }
 
-// Normals from the nodal volumes V_1 and V_2, averaged over the surrounding nodes. The first, V_1 grad V_2 - V_2 grad
+// Gradients of the nodal volumes V_1 and V_2, averaged over the surrounding nodes. The first, V_1 grad V_2 - V_2 grad
 // V_1, is along the gradient of ln(V_2 / V_1); a cut through both bodies, as by the ground, does not rotate it. The
-// others are -grad V_1 and grad V_2. Zero if undefined.
+// others are -grad V_1 and grad V_2.
 template <int Dim>
-auto BodyContact<Dim>::find_normals(const SparseGrid<Dim>& grid, const Nodes<Dim>& nodes, const Pair& pair)
-    -> std::array<Normals, block_nodes> {
+auto BodyContact<Dim>::find_gradients(const SparseGrid<Dim>& grid, const Nodes<Dim>& nodes, const Pair& pair)
+    -> std::array<Gradients, block_nodes> {
   using Near = About<Dim, 1>;
   const auto first = volumes_about<Dim>(grid, nodes, pair.block), second = volumes_about<Dim>(grid, nodes, pair.other);
-  std::array<Normals, Near::count> directions;
+  std::array<Gradients, Near::count> directions;
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const typename T::Index node = Near::relative(k);
     const Vec of_first = change_about<Dim>(first, node), of_second = change_about<Dim>(second, node);
     const std::size_t here = About<Dim, 2>::at(node);
     directions[k] = {first[here] * of_second - second[here] * of_first, -of_first, of_second};
   }
-  std::array<Normals, block_nodes> normals;
+  std::array<Gradients, block_nodes> gradients;
   for (std::size_t k = 0; k < block_nodes; ++k) {
-    for (std::size_t kind = 0; kind < normals[k].size(); ++kind) {
+    for (std::size_t kind = 0; kind < gradients[k].size(); ++kind) {
       Vec sum = Vec::Zero();
       for (int about = 0; about < T::stencil; ++about) {
         typename T::Index node = T::node({}, static_cast<int>(k));
@@ -243,18 +257,17 @@ auto BodyContact<Dim>::find_normals(const SparseGrid<Dim>& grid, const Nodes<Dim
         }
         sum += weight * directions[Near::at(node)][kind];
       }
-      const Real size = sum.norm();
-      normals[k][kind] = size > Real(0) ? Vec(sum / size) : Vec(Vec::Zero());
+      gradients[k][kind] = sum;
     }
   }
-  return normals;
+  return gradients;
 }
 
 // Selects the normal of a node along which the bodies are furthest apart, and computes the gap along it. At a corner of
 // one body, the normal of the other is correct, and the combined one is rotated.
 template <int Dim>
 void BodyContact<Dim>::find_gaps(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BodySizes& sizes,
-                                 const std::array<Normals, block_nodes>& normals, Pair& pair) {
+                                 const std::array<Gradients, block_nodes>& gradients, Pair& pair) {
   const auto about = particles_about(grid, particles, sizes, pair.block),
              other_about = particles_about(grid, particles, sizes, pair.other);
   std::vector<Edge<Dim>> edges, other_edges;
@@ -263,10 +276,13 @@ void BodyContact<Dim>::find_gaps(const SparseGrid<Dim>& grid, const Particles<Di
     if (!meeting.in_contact) {
       continue;
     }
-    find_seen(about, k, edges);
-    find_seen(other_about, k, other_edges);
+    Vector<Real, Dim - 1> slope = find_seen(about, k, edges);
+    slope += find_seen(other_about, k, other_edges);
+    slope /= static_cast<Real>(edges.size() + other_edges.size());
     Real furthest = -std::numeric_limits<Real>::max();
-    for (const Vec& normal : normals[k]) {
+    for (Vec normal : gradients[k]) {
+      normal.template head<Dim - 1>() -= normal[Dim - 1] * slope;  // gradient in space
+      normal.normalize();                                          // or zero
       const Real apart = set_edges<Dim>(normal, Real(-1), other_edges) - set_edges<Dim>(normal, Real(1), edges);
       const Real by_rounding = Real(1e-9) * grid.cell();  // tolerance for ties: the first one is kept
       if (normal != Vec::Zero() && apart > furthest + by_rounding) {
@@ -327,7 +343,7 @@ void BodyContact<Dim>::add_forces(const SparseGrid<Dim>& grid, const Particles<D
     // Serial: three bodies that meet at a node exchange its momentum in turn.
     for (std::size_t k = first_of_tile_[tile]; k < first_of_tile_[tile + 1]; ++k) {
       if (find_meetings(nodes, pairs_[k])) {
-        find_gaps(grid, particles, sizes, find_normals(grid, nodes, pairs_[k]), pairs_[k]);
+        find_gaps(grid, particles, sizes, find_gradients(grid, nodes, pairs_[k]), pairs_[k]);
         exchange(mass_damping, dt, nodes, pairs_[k]);
       }
     }

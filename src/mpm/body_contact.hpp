@@ -48,8 +48,8 @@ class BodyContact {
     Vec impulse = Vec::Zero();
     Real gap = 0;  // [m]
   };
-  // Candidate normals of a node: from both bodies, the first, the second.
-  using Normals = std::array<Vec, 3>;
+  // Gradients on the grid along the candidate normals of a node: from both bodies, the first, the second.
+  using Gradients = std::array<Vec, 3>;
   // Blocks of two layers at the same place.
   struct Pair {
     std::uint64_t tile;
@@ -60,10 +60,10 @@ class BodyContact {
 
   void find_pairs(const SparseGrid<Dim>& grid, const BetweenBodies& between);
   [[nodiscard]] static bool find_meetings(const Nodes<Dim>& nodes, Pair& pair);
-  [[nodiscard]] static std::array<Normals, block_nodes> find_normals(const SparseGrid<Dim>& grid,
-                                                                     const Nodes<Dim>& nodes, const Pair& pair);
+  [[nodiscard]] static std::array<Gradients, block_nodes> find_gradients(const SparseGrid<Dim>& grid,
+                                                                         const Nodes<Dim>& nodes, const Pair& pair);
   static void find_gaps(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BodySizes& sizes,
-                        const std::array<Normals, block_nodes>& normals, Pair& pair);
+                        const std::array<Gradients, block_nodes>& gradients, Pair& pair);
   static void exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, Pair& pair);
 
   std::vector<Pair> pairs_;                 // by place, then by block

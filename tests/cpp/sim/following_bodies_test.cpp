@@ -1,0 +1,167 @@
+// Contact between bodies on cells that follow the ground: relatives of between_bodies_test.cpp on planes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../support/following_plane.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+using Place = Vector<double, 2>;
+
+constexpr double cell = 2.0, spacing = 0.5 * cell;  // of particles [m]
+constexpr double dt = 0.001, gravity = 9.81;
+
+std::string text_of(const Place& vector) { return fmt::format("[{},{}]", vector[0], vector[1]); }
+
+// Block on a plane: extent along x and heights along the vertical above the plane [m]. Its ends are vertical, or across
+// the plane.
+struct Block {
+  double from, to, bottom, top;
+  bool has_vertical_ends = true;
+
+  [[nodiscard]] std::vector<Place> vertices(const Incline& plane) const {
+    const auto above = [&](double x, double height) {
+      const double along = x / std::cos(plane.angle());
+      return has_vertical_ends ? Place(plane.place(along, 0.0) + Place(0.0, height))
+                               : plane.place(along, height * std::cos(plane.angle()));
+    };
+    return {above(from, bottom), above(to, bottom), above(to, top), above(from, top)};
+  }
+};
+
+// Two elastic blocks on a plane without friction, with velocities down it.
+config::Case two_blocks(const Incline& plane, const Block& first, double speed, const Block& second, double other_speed,
+                        const Sets& sets = {}) {
+  std::string vertices;
+  for (const Place& vertex : second.vertices(plane)) {
+    vertices += (vertices.empty() ? "" : ",") + text_of(vertex);
+  }
+  return body_on_plane(
+      plane, cell, first.vertices(plane),
+      Sets{fmt::format("time.stepping=fixed; time.step={}; contact.between_bodies=frictional", dt),
+           "contact.friction_angle=0; basal.friction_angle=0; material.rock.law=elastic; material.rock.cohesion=",
+           "material.rock.friction_angle=; material.rock.youngs_modulus=1e8; material.rock.viscosity_time=0.005",
+           "body.right.shape=polygon; body.right.material=rock; body.right.temperature=-5; body.right.porosity=0.3",
+           fmt::format("body.right.vertices=[{}]", vertices), "body.block.velocity=" + text_of(speed * plane.down()),
+           "body.right.velocity=" + text_of(other_speed * plane.down())} +
+          sets);
+}
+
+// Motion of one body.
+struct Motion {
+  static constexpr double most = std::numeric_limits<double>::max();
+  double mass = 0.0, speed = 0.0, forward = 0.0, rise = 0.0;          // down the plane, along x and upwards [m/s]
+  double first = most, last = -most, lowest = most, highest = -most;  // along x and above the plane [m]
+
+  Motion(const Simulation<2>& simulation, const Incline& plane, int body) {
+    const auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      if (particles.body(p) == body) {
+        const Place position = particles.position.get<Place>(p) + simulation.model().origin,
+                    velocity = particles.velocity.get<Place>(p);
+        const double height = position[1] + std::tan(plane.angle()) * position[0];
+        mass += particles.mass(p);
+        speed += particles.mass(p) * velocity.dot(plane.down());
+        forward += particles.mass(p) * velocity[0];
+        rise += particles.mass(p) * velocity[1];
+        first = std::min(first, position[0]);
+        last = std::max(last, position[0]);
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+      }
+    }
+    speed /= mass;
+    forward /= mass;
+    rise /= mass;
+  }
+};
+
+// Only gravity changes the total momentum down the plane. On the steeper plane, the second block is lifted and tilts.
+TEST(FollowingBodies, CollideAfterTheGapHasClosed) {
+  constexpr double speed = 5.0, gap = 2.0;
+  for (const double slope : {30.0, 55.0}) {
+    const Incline plane{slope};
+    Simulation<2> simulation(two_blocks(plane, {0, 12, 0, 8}, speed, {12 + gap, 24 + gap, 0, 8}, 0.0));
+    double met = HUGE_VAL, smallest_gap = gap;
+    while (simulation.time() < met + 0.3) {
+      simulation.step(dt);
+      ASSERT_LT(simulation.time(), 2.0);
+      const Motion left(simulation, plane, 0), right(simulation, plane, 1);
+      const double fall = gravity * std::sin(plane.angle()) * simulation.time();
+      const double momentum = left.mass * speed + (left.mass + right.mass) * fall;
+      ASSERT_NEAR(left.mass * left.speed + right.mass * right.speed, momentum, 1e-11 * momentum);
+      smallest_gap = std::min(smallest_gap, right.first - left.last - spacing);
+      if (met == HUGE_VAL && std::abs(right.speed - fall) > 1e-6 * speed) {
+        met = simulation.time();
+        EXPECT_NEAR(smallest_gap, 0.0, (speed + fall) * dt) << "it moves before the gap is closed";
+      }
+    }
+    EXPECT_GT(smallest_gap, -0.1 * cell) << "they run into one another";
+    const Motion left(simulation, plane, 0), right(simulation, plane, 1);
+    EXPECT_TRUE(slope > 30.0 || right.forward > left.forward) << left.forward << " and " << right.forward << " m/s";
+  }
+}
+
+TEST(FollowingBodies, SeparateWithoutDrag) {
+  constexpr double speed = 2.0;
+  const Incline plane{30.0};
+  for (const double gap : {0.0, 0.6}) {
+    Simulation<2> simulation(two_blocks(plane, {0, 12, 0, 8}, 0.0, {12 + gap, 24 + gap, 0, 8}, speed));
+    const double bound = gap > 0.0 ? 1e-7 : 1e-3 * speed;
+    double difference = 0.0;
+    while (simulation.time() < 0.5) {
+      simulation.step(dt);
+      const double fall = gravity * std::sin(plane.angle()) * simulation.time();
+      difference = std::max({difference, std::abs(Motion(simulation, plane, 0).speed - fall),
+                             std::abs(Motion(simulation, plane, 1).speed - speed - fall)});
+    }
+    EXPECT_LT(difference, bound) << "a gap of " << gap << " m";
+  }
+}
+
+TEST(FollowingBodies, FallFreelyOntoOthers) {
+  for (const double slope : {30.0, 55.0}) {
+    const Incline plane{slope};
+    Simulation<2> simulation(
+        two_blocks(plane, {-40, 60, 0, 4}, 0.0, {-10, 6, 4.7, 8.7}, 0.0, "basal.friction_angle=80"));
+    while (std::abs(Motion(simulation, plane, 1).rise + gravity * simulation.time()) < 1e-6) {
+      simulation.step(dt);
+      ASSERT_LT(simulation.time(), 1.0);
+    }
+    const Motion fixed(simulation, plane, 0), falling(simulation, plane, 1);
+    EXPECT_NEAR(falling.lowest - fixed.highest - spacing, 0.0, -falling.rise * dt);
+  }
+}
+
+// Acceleration of a block that slides on a long one, which is fixed on rough ground, down the plane [m/s2].
+double acceleration(const Incline& plane, Block sliding, double friction_angle) {
+  Simulation<2> simulation(
+      two_blocks(plane, {-40, 60, 0, 4}, 0.0, sliding, 9.0,
+                 {fmt::format("contact.friction_angle={}; basal.friction_angle=80", friction_angle),
+                  "mechanics.slope_shear=true"}));
+  run_until(simulation, 0.2);
+  const double before = Motion(simulation, plane, 1).speed;
+  run_until(simulation, 1.2);
+  return Motion(simulation, plane, 1).speed - before;
+}
+
+TEST(FollowingBodies, FollowCoulombsLaw) {
+  for (const bool has_vertical_ends : {true, false}) {
+    for (const auto& [slope, angle] : {std::pair(30.0, 0.0), std::pair(30.0, 10.0), std::pair(30.0, 30.0),
+                                       std::pair(30.0, 40.0), std::pair(55.0, 30.0)}) {
+      const Incline plane{slope};
+      const double friction = gravity * std::cos(plane.angle()) * std::tan(angle * pi / 180.0);
+      const double exact = gravity * std::sin(plane.angle()) - friction;
+      const double found = acceleration(plane, {-10, 6, 4, 8, has_vertical_ends}, angle);
+      EXPECT_NEAR(found, exact, 0.005 + 0.02 * friction) << angle << " degrees on a slope of " << slope;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim
