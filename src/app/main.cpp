@@ -204,8 +204,8 @@ int run_program(int count, char** arguments) {
                           ->option_text("default: that of --resolution");
   make_new
       ->add_option("--resolution", new_options.resolution,
-                   "Cell size. quick: two cells across the thickness of the release, for travel distance and speed; "
-                   "standard: four across its median thickness, also for thickness and area; fine: eight")
+                   "Cell size. quick: two cells across the thickness of the release; standard: four across its median "
+                   "thickness; fine: eight")
       ->check(CLI::IsMember({"quick", "standard", "fine"}))
       ->excludes(cell)
       ->option_text("default quick");
