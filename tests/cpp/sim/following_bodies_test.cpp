@@ -1,4 +1,5 @@
-// Contact between bodies on cells that follow the ground: relatives of between_bodies_test.cpp on planes.
+// Contact between bodies on cells that follow the ground: relatives of between_bodies_test.cpp on planes, and on uneven
+// ground in 3D.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,12 +7,13 @@
 #include <limits>
 
 #include "../support/following_plane.hpp"
+#include "../support/reproducible_runs.hpp"
+#include "../support/slide_on_dem.hpp"
 
 namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
-using Place = Vector<double, 2>;
 
 constexpr double cell = 2.0, spacing = 0.5 * cell;  // of particles [m]
 constexpr double dt = 0.001, gravity = 9.81;
@@ -161,6 +163,54 @@ TEST(FollowingBodies, FollowCoulombsLaw) {
       EXPECT_NEAR(found, exact, 0.005 + 0.02 * friction) << angle << " degrees on a slope of " << slope;
     }
   }
+}
+
+// Two releases on uneven ground. The one behind, at 15 m/s, runs into the other.
+std::unique_ptr<Simulation<3>> releases_on_uneven_ground() {
+  const Place half(100.0, 100.0);
+  const auto uneven = [](double x, double y) {
+    return -0.5 * x + 0.2 * y + 2.0 * std::sin(0.1 * x) * std::cos(0.08 * y);
+  };
+  const auto thickness = [&](double from, double to) {
+    return thickness_between(-half, half, 2.5,
+                             [=](double x, double y) { return x > from && x < to && std::abs(y) < 20.0 ? 12.0 : 0.0; });
+  };
+  config::Site site = site_of(raster_between(-half, half, 4.0, uneven), thickness(-50.0, -10.0));
+  site.releases["front"].thickness = thickness(-5.0, 35.0);
+  const auto slide = release_on_dem({20.0, 0.002, 5.0, {-100.0, -100.0, -100.0}, {100.0, 100.0, 150.0}},
+                                    "material.debris.youngs_modulus=5e7; material.debris.viscosity_time=0.005", 20.0);
+  return std::make_unique<Simulation<3>>(
+      case_on_dem(slide, {"grid.follows_terrain=true; time.stepping=adaptive; body.slide.velocity=[15,0,-7.5]",
+                          "body.front.material=debris; body.front.shape=release; body.front.temperature=-1",
+                          "body.front.porosity=0.3; body.front.particles_per_axis=3",
+                          "body.front.thickness={raster='" + (folder_of_this_test() / "thickness.tif").string() + "'}",
+                          "contact.between_bodies=frictional; contact.friction_angle=20"}),
+      site);
+}
+
+TEST(FollowingBodies, AreReproducibleAndConserveMomentumOnUnevenGround) {
+  constexpr int steps = 250;
+  const auto speed_of = [](const Simulation<3>& simulation, int body) {
+    double mass = 0.0, speed = 0.0;
+    const auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      if (particles.body(p) == body) {
+        mass += particles.mass(p);
+        speed += particles.mass(p) * particles.velocity(p, 0);
+      }
+    }
+    return speed / mass;
+  };
+  expect_reproducible_run<3>(
+      releases_on_uneven_ground, steps, {{2, 7, -1}, {3, 1, steps / 2}},
+      [&](const Simulation<3>& simulation, int step) {
+        const HistoryRow row = history_row(simulation);
+        for (const std::string axis : {"x", "y", "z"}) {
+          EXPECT_NEAR(value_of(row, "momentum_residual_" + axis + "_N_s") / (simulation.budget().initial_mass * 15.0),
+                      0.0, 1e-13);
+        }
+        EXPECT_TRUE(step < steps || speed_of(simulation, 1) > speed_of(simulation, 0) + 5.0);
+      });
 }
 
 }  // namespace
