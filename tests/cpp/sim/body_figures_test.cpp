@@ -72,7 +72,7 @@ TEST(BodyFigures, TheMedianIsByAreaAndTriggersAWarning) {
             "Give it 4e+06 Pa or more.");
   expect_in(warnings[1],
             "grid.cell: across the median thickness of body block, 1 m, there are too few particles to "
-            "resolve shear and thinning (found 2; needed 4). Set grid.cell to 0.25 m, at about 64 times "
+            "resolve shear and thinning (found 2; needed 4). Set grid.cell to 0.5 m, at about 8 times "
             "the run time.");
 }
 
