@@ -15,11 +15,28 @@ namespace thawslide::sim {
 
 namespace {
 
-// On cells that follow the ground: columns of particles of equal height. Parts of the body that stand on the terrain
-// begin at the ground of the grid, and have the same thickness there.
+// True if the part of a body that begins at `low` is on the terrain, directly or through bodies below it.
+template <int Dim>
+bool stands(const std::vector<BodyShape<Dim>>& shapes, const Vector<double, Dim>& position, double low, double terrain,
+            double tie) {
+  return low <= terrain + tie || std::any_of(shapes.begin(), shapes.end(), [&](const BodyShape<Dim>& below) {
+           if (below.release() || (Dim == 3 && !(below.lower(1) <= position[1] && position[1] <= below.upper(1)))) {
+             return false;
+           }
+           const auto parts = below.parts_over(position[0]);
+           return std::any_of(parts.begin(), parts.end(), [&](const auto& part) {
+             return part.first < low - tie && std::abs(part.second - low) <= tie &&
+                    stands(shapes, position, part.first, terrain, tie);
+           });
+         });
+}
+
+// On cells that follow the ground: columns of particles of equal height. Parts of bodies that stand on the terrain, also
+// on each other, are lifted with the ground of the grid.
 template <int Dim>
 void seed_columns(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
-                  const BodyShape<Dim>& shape, int number, std::vector<Seed<Dim>>& seeds) {
+                  const std::vector<BodyShape<Dim>>& shapes, int number, std::vector<Seed<Dim>>& seeds) {
+  const BodyShape<Dim>& shape = shapes[static_cast<std::size_t>(number)];
   const double spacing = parameters.grid.cell / body.particles_per_axis, tie = 1e-9 * parameters.grid.cell;
   std::array<long, 2> first{}, last{};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -39,13 +56,15 @@ void seed_columns(const config::Case& parameters, const Model<Dim>& model, const
       const double terrain = model.following->terrain().height(below) + model.origin[Dim - 1];
       const double ground = model.following->height(below, static_cast<std::size_t>(number)) + model.origin[Dim - 1];
       for (const auto& [low, high] : shape.parts_over(position[0])) {
-        const bool stands = low <= terrain + tie;
-        const double bottom = stands ? ground : std::max(low, ground), top = stands ? high + (ground - terrain) : high;
+        const double lift =
+            stands(shapes, position, low, terrain, 1e-6 * parameters.grid.cell) ? ground - terrain : 0.0;
+        const double bottom = std::max(low + lift, ground), top = high + lift;
         const long count = top > bottom ? std::lround((top - bottom) / spacing) : 0;
         const double height = (top - bottom) / static_cast<double>(std::max(1L, count));
         for (long k = 0; k < count; ++k) {
           position[Dim - 1] = bottom + (static_cast<double>(k) + 0.5) * height;
-          seeds.push_back({number, position, top - position[Dim - 1], height * std::pow(spacing, Dim - 1), lattice});
+          seeds.push_back(
+              {number, position, top - position[Dim - 1], height * std::pow(spacing, Dim - 1), lattice, lift});
           ++lattice[Dim - 1];
         }
       }
@@ -56,7 +75,8 @@ void seed_columns(const config::Case& parameters, const Model<Dim>& model, const
 // Places particles at the centres of equal parts of the cells.
 template <int Dim>
 void seed_body(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
-               const BodyShape<Dim>& shape, int number, std::vector<Seed<Dim>>& seeds) {
+               const std::vector<BodyShape<Dim>>& shapes, int number, std::vector<Seed<Dim>>& seeds) {
+  const BodyShape<Dim>& shape = shapes[static_cast<std::size_t>(number)];
   const double spacing = parameters.grid.cell / body.particles_per_axis;
   const double volume = std::pow(spacing, Dim);
   if constexpr (Dim == 3) {
@@ -67,7 +87,7 @@ void seed_body(const config::Case& parameters, const Model<Dim>& model, const co
     }
   }
   if (model.following) {
-    seed_columns(parameters, model, body, shape, number, seeds);
+    seed_columns(parameters, model, body, shapes, number, seeds);
     return;
   }
   std::array<long, 3> first{}, last{};
@@ -137,13 +157,18 @@ void require_volume(const config::Case& parameters, const Model<Dim>& model, con
   }
 }
 
+template <int Dim>
+Vector<double, Dim> place_in_shape(const Seed<Dim>& seed) {
+  return seed.position - seed.lift * Vector<double, Dim>::Unit(Dim - 1);
+}
+
 // Requires that no two bodies fill the same place.
 template <int Dim>
 void require_apart(const config::Case& parameters, const std::vector<std::string>& names,
                    const std::vector<BodyShape<Dim>>& shapes, const std::vector<Seed<Dim>>& seeds) {
   for (const Seed<Dim>& seed : seeds) {
     for (std::size_t other = static_cast<std::size_t>(seed.body) + 1; other < shapes.size(); ++other) {
-      if (shapes[other].contains(seed.position)) {
+      if (shapes[other].contains(place_in_shape(seed))) {
         throw UserError(
             fmt::format("{}: body '{}' and body '{}' both fill the place x = {} m, {}elevation {} m; allowed: bodies "
                         "that touch but do not overlap. Move one of them.",
@@ -286,7 +311,7 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     const std::size_t before = seeds.size();
     const BodyShape<Dim>& shape = shapes[bodies.size()];
     names.push_back(name);
-    seed_body(parameters, model, body, shape, static_cast<int>(bodies.size()), seeds);
+    seed_body(parameters, model, body, shapes, static_cast<int>(bodies.size()), seeds);
     require_volume(parameters, model, name, body, shape, before, seeds);
     require_above_ground(parameters, model, name, before, seeds);
     if (shape.release()) {

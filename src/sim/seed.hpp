@@ -18,6 +18,7 @@ struct Seed {
   double depth;                            // vertical, below the body's top [m]
   double volume;                           // [m3], per metre of width in 2D
   std::array<std::uint32_t, 3> lattice{};  // numbers of its column, row and layer, from the body's lowest corner
+  double lift = 0.0;  // from its place in the body's shape, with the ground of cells that follow the terrain [m]
 };
 
 // Displacement of a particle [m], at most initial.noise times `spacing` [m] in either direction along each axis. It

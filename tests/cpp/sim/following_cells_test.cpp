@@ -2,7 +2,11 @@
 // an erodible bed, and particles of a body have its exact volume.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <map>
 #include <numeric>
 
 #include "../support/channel_on_dem.hpp"
@@ -100,6 +104,46 @@ TEST(FollowingCells, BodiesHaveTheirExactVolume) {
     area += particles.volume(p);
   }
   EXPECT_NEAR(area, 154.0 * 33.0, 1e-9 * area);
+}
+
+// A crest of 45 degrees is 2.5 m lower in the columns. A rock and the ice on it are lowered together: they neither
+// overlap nor leave a gap, and keep their volumes.
+TEST(FollowingCells, StackedBodiesStandOnTheGroundOfTheCells) {
+  constexpr double thickness = 30.0;
+  const std::string file = (folder_of_this_test() / "profile.csv").string();
+  std::ofstream(file) << "distance_m,terrain_elevation_m\n-300,-300\n0,0\n300,-300\n";
+  const Simulation<2> made(
+      base_case("block", Sets("time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.cell=10; "
+                              "grid.min=[-200,-250]; grid.max=[200,150]; terrain.type=profile; "
+                              "body.block.shape=polygon; body.block.min=; body.block.max=; "
+                              "body.block.vertices=[[-50,-50],[0,0],[50,-50],[50,-20],[0,30],[-50,-20]]; "
+                              "body.upper.shape=polygon; body.upper.material=rock; body.upper.temperature=-5; "
+                              "body.upper.porosity=0.3; "
+                              "body.upper.vertices=[[-50,-20],[0,30],[50,-20],[50,10],[0,60],[-50,10]]; "
+                              "terrain.file=" +
+                              file)));
+  const auto& particles = made.particles();
+  std::map<Real, std::array<Real, 4>> columns;  // lowest and highest place of the rock, the same of the ice
+  std::array<double, 2> volumes{};
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto body = static_cast<std::size_t>(particles.body(p));
+    const auto found =
+        columns.try_emplace(particles.position(p, 0), std::array<Real, 4>{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL});
+    std::array<Real, 4>& column = found.first->second;
+    column[2 * body] = std::min(column[2 * body], particles.position(p, 1));
+    column[2 * body + 1] = std::max(column[2 * body + 1], particles.position(p, 1));
+    volumes[body] += static_cast<double>(particles.volume(p));
+  }
+  ASSERT_GE(columns.size(), 20U);
+  const Real spacing = thickness / 6;
+  for (const auto& [x, column] : columns) {
+    const Real ground = static_cast<Real>(made.model().following->height(terrain::Surface<2>::Point(x)));
+    EXPECT_NEAR(column[0] - ground, 0.5 * spacing, 1e-9);
+    EXPECT_NEAR(column[2] - column[1], spacing, 1e-9) << "at x = " << x;
+    EXPECT_NEAR(column[3] - column[2], thickness - spacing, 1e-9);
+  }
+  EXPECT_NEAR(volumes[0], 3000.0, 1e-9 * 3000.0);
+  EXPECT_NEAR(volumes[1], 3000.0, 1e-9 * 3000.0);
 }
 
 // `ground` is a map of the ground of the cells, which the waves of the gully miss by a metre.
