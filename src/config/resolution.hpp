@@ -54,9 +54,9 @@ struct ResolutionFacts {
 };
 
 inline constexpr std::array<ResolutionFacts, 3> resolutions{
-    {{Resolution::quick, "quick", "on a plane, errors of 1 % in travel distance, 11 % in areas"},
-     {Resolution::standard, "standard", "on a plane, errors of 0.5 % in travel distance, 4 % in areas"},
-     {Resolution::fine, "fine", "on a plane, errors of 0.3 % in travel distance, 2 % in areas"}}};
+    {{Resolution::quick, "quick", "errors of 1 % (travel) and 11 % (areas) on a plane"},
+     {Resolution::standard, "standard", "errors of 0.5 % (travel) and 4 % (areas) on a plane"},
+     {Resolution::fine, "fine", "errors of 0.3 % (travel) and 2 % (areas) on a plane"}}};
 
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);
