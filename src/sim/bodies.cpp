@@ -31,8 +31,8 @@ bool stands(const std::vector<BodyShape<Dim>>& shapes, const Vector<double, Dim>
          });
 }
 
-// On cells that follow the ground: columns of particles of equal height. Parts of bodies that stand on the terrain, also
-// on each other, are lifted with the ground of the grid.
+// On cells that follow the ground: columns of particles of equal height. Parts of bodies that stand on the terrain,
+// also on each other, are lifted with the ground of the grid.
 template <int Dim>
 void seed_columns(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
                   const std::vector<BodyShape<Dim>>& shapes, int number, std::vector<Seed<Dim>>& seeds) {

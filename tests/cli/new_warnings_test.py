@@ -58,8 +58,8 @@ def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Pat
     text = (folder / "case.toml").read_text()
     assert (
         "cell = 12.0  # m; two particles a cell and axis make 4.0 across a thickness of 24 m\n"
-        "# Travel distance and speed need 2 cells across the thickness of the release. Maps of thickness and area need\n"
-        "# 4: cells of 6 m (`thawslide new --resolution standard`), at about 16 times the run time.\n"
+        "# Travel distance and speed need 2 cells across the thickness of the release. Maps of thickness and area "
+        "need\n# 4: cells of 6 m (`thawslide new --resolution standard`), at about 16 times the run time.\n"
     ) in text
     place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
     (note,) = warnings_of(thawslide, folder)
