@@ -28,8 +28,13 @@ inline double last_scheduled_event(const Case& parameters) {
   for (const auto& [name, substrate] : parameters.substrates) {
     last = std::max(last, cohesion_loss_time(substrate));
   }
-  const std::vector<double>& times = parameters.band.thickness.table.abscissa;
-  return times.empty() ? last : std::max(last, times.back());
+  const auto& thickness = parameters.band.thickness.table;
+  for (std::size_t k = 1; k < thickness.abscissa.size(); ++k) {
+    if (thickness.value[k] != thickness.value[k - 1]) {
+      last = std::max(last, thickness.abscissa[k]);
+    }
+  }
+  return last;
 }
 
 }  // namespace thawslide::config

@@ -7,6 +7,7 @@
 #include "../support/base_cases.hpp"
 #include "../support/messages.hpp"
 #include "base/parallel.hpp"
+#include "config/scheduled_events.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/end_state.hpp"
 #include "sim/history.hpp"
@@ -157,6 +158,16 @@ TEST(Rest, BeginsAfterTheLastScheduledEvent) {
       simulation.rest_rule(),
       "for 0.4 s, or 0.25 s from the start, after the last scheduled change at 3 s no more than 0.5 % of the mass "
       "faster than 0.05 m/s");
+}
+
+// The last entries of a table repeat a value until the end of the run.
+TEST(Rest, IsNotDelayedByEntriesOfATableThatChangeNothing) {
+  const auto last_change = [](const std::string& thickness) {
+    return config::last_scheduled_event(paper_case(block + Sets("band.thickness={ " + thickness + " }")));
+  };
+  EXPECT_EQ(last_change("time=[0, 1, 1, 5], value=[0.05, 0.05, 0.5, 0.5]"), 1.0);
+  EXPECT_EQ(last_change("time=[0, 1, 5], value=[0.05, 0.05, 0.5]"), 5.0);
+  EXPECT_EQ(last_change("time=[0, 5], value=[0.05, 0.05]"), 0.0);
 }
 
 TEST(Rest, OfABodyThatHasNotMovedIsNamedSo) {
