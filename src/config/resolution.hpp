@@ -13,7 +13,7 @@ namespace thawslide::config {
 inline constexpr double fewest_particles = 4.0;  // across the thickness, for shear and thinning
 
 // Cells across the thickness for maps: the area of the deposit of a slide on a plane is then 4 % too small on cells
-// that follow the terrain, and 14 % on level cells (docs/refinement.md).
+// that follow the terrain (docs/theory/contact.md), and 14 % on level cells (docs/refinement.md).
 [[nodiscard]] constexpr double cells_for_maps(bool follow_terrain) { return follow_terrain ? 4.0 : 8.0; }
 
 struct BodyOnCells {
@@ -46,7 +46,7 @@ struct BodyOnCells {
 
 enum class Resolution { quick, standard, fine };
 
-// A named resolution and its errors on a plane that runs out (docs/refinement.md).
+// A named resolution and its errors on a plane that runs out, with FLIP (docs/theory/contact.md).
 struct ResolutionFacts {
   Resolution resolution;
   const char* name;
