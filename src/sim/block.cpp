@@ -20,10 +20,6 @@ namespace thawslide::sim {
 
 namespace {
 
-Vector<double, 2> normal_below(const Model<2>& model, double x) {
-  return model.ground->normal_below(Vector<double, 1>(x), 0.0);
-}
-
 // Conversion between x and path length along the ground, and the direction of the ground, which is constant between two
 // of its points; coordinates relative to the domain's lower corner [m].
 class Path {
@@ -35,10 +31,11 @@ class Path {
       const double run = x_[k] - x_[k - 1], rise = heights[k] - heights[k - 1];
       length_.push_back(length_.back() + std::hypot(run, rise));
       angle_.push_back(std::atan(rise / run));
-      normal_.push_back(normal_below(model, 0.5 * (x_[k - 1] + x_[k])));
+      normal_.push_back(Vector<double, 2>(rise, -run).normalized());
     }
   }
   [[nodiscard]] double length_at(double x) const { return map(x_, length_, segment(x_, x), x); }
+  [[nodiscard]] const Vector<double, 2>& normal_at(double x) const { return normal_[segment(x_, x)]; }
   [[nodiscard]] double x_at(double length) const { return map(length_, x_, segment(length_, length), length); }
 
   // Position on the path. A search begins at the segment of the last one, because lengths usually ascend.
@@ -154,7 +151,7 @@ class Block {
         slices_(make_slices(parameters, model, path_, particles)),
         column_(make_column(particles.material(0))) {
     const auto& start = parameters.bodies.begin()->second.velocity;
-    const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
+    const Vector<double, 2> into = path_.normal_at(slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
     direction_ = direction_of(bodies_at_start(model, particles, parameters.grid.cell), {});
   }
