@@ -48,7 +48,8 @@ void FlowDepth<Dim>::add_tile(const mpm::SparseGrid<Dim>& grid, const mpm::Parti
   part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
-    const Simd<Real> top = grid.mapping().coordinate(particles, batch, Dim - 1) + sizes_.of(particles, batch).half;
+    const Simd<Real> top =
+        grid.mapping().template coordinate<Dim>(particles, batch, Dim - 1) + sizes_.of(particles, batch).half;
     const Simd<Real> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
     std::array<std::array<std::int32_t, mpm::SimdBatch::most>, corners> columns;

@@ -27,7 +27,8 @@ void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particle
 
 // Sets the current scaling xi = layer / thickness of particles at memory index `first` and above (1 outside the
 // region). Returns the heat [J] that the change adds at constant temperature and pressure. thickness 0: no band, xi =
-// 1. layer_thickness(x): thickness of the cells that form the band; empty: one cell.
+// 1. layer_thickness(x): thickness of the cells that form the band; empty: one cell, or the layer of cells that follow
+// the ground.
 template <int Dim>
 Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,

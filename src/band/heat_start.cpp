@@ -27,10 +27,14 @@ Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
                   mpm::Particles<Dim>& particles, std::size_t first) {
   const bool by_position = thickness > Real(0) && layer_thickness;
+  const bool by_slope = thickness > Real(0) && grid.mapping().follows_ground;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
     if (model.region != BandRegion::all && particles.in_band(p) == 0) {
       return Real(1);
+    }
+    if (by_slope) {
+      return layer_along_normal<Dim>(grid.cell(), particles, p) / thickness;
     }
     return by_position ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness
                        : of_a_cell;

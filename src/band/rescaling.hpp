@@ -6,6 +6,17 @@
 
 namespace thawslide::band {
 
+// Thickness [m], along the normal of the ground below a particle, of the layers of cells that follow the ground.
+template <int Dim, class Particles>
+THAWSLIDE_HD Real layer_along_normal(Real cell, const Particles& particles, std::uint32_t p) {
+  using std::sqrt;
+  Real square = Real(1);
+  for (int a = 0; a + 1 < Dim; ++a) {
+    square += particles.ground_slope(p, a) * particles.ground_slope(p, a);
+  }
+  return cell / sqrt(square);
+}
+
 // Mixes the water of a particle's part of the band with that of joining material in its state at t = 0. kept: fraction
 // of the previous band. before, joining: temperatures [C]. Melted material swells or contracts on the way to the
 // temperature of the mixture.

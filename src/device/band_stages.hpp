@@ -20,8 +20,8 @@ class BandStages {
   BandStages(Passes& passes, const HostCallbacks<Dim>& callbacks, StepSums<Dim>* sums)
       : passes_(passes),
         sums_(sums),
-        columns_(passes.backend, passes.model.cell, passes.model.half_sizes, callbacks.slope_cosine,
-                 callbacks.normal_gravity),
+        columns_(passes.backend, passes.model.cell, passes.model.mapping, passes.model.half_sizes,
+                 callbacks.slope_cosine, callbacks.normal_gravity),
         layers_(passes.backend, callbacks.layer_at_middle) {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
@@ -56,8 +56,12 @@ class BandStages {
   void rescale(Real time) {
     const Real thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
     passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
-    if (layers_.exists() && thickness > Real(0)) {
-      rescale_by(ScalingByLayer<Dim>{layers_.layers(passes_.cells.tables(), cell), thickness});
+    if ((layers_.exists() || passes_.model.mapping.follows_ground) && thickness > Real(0)) {
+      if (layers_.exists()) {
+        rescale_by(ScalingByLayer<Dim>{layers_.layers(passes_.cells.tables(), cell), thickness});
+      } else {
+        rescale_by(ScalingBySlope<Dim>{cell, thickness});
+      }
       scaling_in_force_ = Real(0);  // reset, because the scaling varies in space
       return;
     }

@@ -7,6 +7,7 @@
 
 #include "base/portability.hpp"
 #include "device/tile_tables.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
@@ -46,6 +47,7 @@ struct FindKey {
   mpm::ParticleView<Dim> particles;
   const std::uint32_t* by_id;
   Real inverse_cell;
+  mpm::Mapping mapping;
   std::uint64_t* keys;
   std::uint32_t* any_changed;
 
@@ -54,7 +56,8 @@ struct FindKey {
     const std::uint32_t particle = by_id[k];
     typename T::Index node{}, tile{};
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real in_cells = particles.position(particle, static_cast<int>(a)) * inverse_cell;
+      const Real in_cells =
+          mapping.template coordinate<Dim>(particles, mpm::ScalarIndex{{particle}}, static_cast<int>(a)) * inverse_cell;
       node[a] = static_cast<int>(std::floor(in_cells + Real(0.5)));
     }
     int local = 0;

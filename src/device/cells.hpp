@@ -18,7 +18,8 @@ class Cells {
 
  public:
   // cell: mesh size [m].
-  Cells(Backend& backend, Real cell) : backend_(backend), inverse_cell_(Real(1) / cell) {}
+  Cells(Backend& backend, Real cell, const mpm::Mapping& mapping)
+      : backend_(backend), inverse_cell_(Real(1) / cell), mapping_(mapping) {}
 
   // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
   void update(const mpm::ParticleView<Dim>& particles, const std::uint32_t* by_id, std::size_t count) {
@@ -28,7 +29,7 @@ class Cells {
       fill(keys_by_id_, no_key);
     }
     fill(mark_, std::uint32_t{0});
-    backend_.for_each(count, FindKey<Dim>{particles, by_id, inverse_cell_, keys_by_id_.data(), mark_.data()});
+    backend_.for_each(count, FindKey<Dim>{particles, by_id, inverse_cell_, mapping_, keys_by_id_.data(), mark_.data()});
     if (mark_.get(0) == 0) {
       return;
     }
@@ -102,6 +103,7 @@ class Cells {
 
   Backend& backend_;
   Real inverse_cell_;
+  mpm::Mapping mapping_;
   Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};
   Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};

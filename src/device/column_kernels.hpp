@@ -69,6 +69,7 @@ struct SumInTile {
   mpm::ParticleView<Dim> particles;
   mpm::SizesOfBodies sizes;  // half sizes of particles [m]
   Real cell;
+  mpm::Mapping mapping;
   ColumnPart<Dim>* parts;  // by tile and place
 
   struct Box {
@@ -98,7 +99,7 @@ struct SumInTile {
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::size_t tile, std::uint32_t particle) const {
     const mpm::ScalarIndex at{{particle}};
     return {particles.volume(particle), particles.mass(particle),
-            particles.position(particle, Dim - 1) + sizes.of(particles, at).half,
+            mapping.template coordinate<Dim>(particles, at, Dim - 1) + sizes.of(particles, at).half,
             band::overlaps<Dim>(band::first_cell_of<Dim>(tables.tile_keys[tile]), cell, Real(1) / cell, sizes,
                                 particles, at)};
   }
@@ -176,6 +177,7 @@ struct ColumnsByTile {
   const std::int32_t* column;  // by tile and place
   mpm::SizesOfBodies sizes;
   Real cell;
+  mpm::Mapping mapping;
   const Real *thickness, *top, *cosine;
 
   [[nodiscard]] THAWSLIDE_HD OfTile of_tile(std::size_t tile) const {
@@ -186,7 +188,8 @@ struct ColumnsByTile {
             sizes,
             {thickness, seen},
             {top, seen},
-            {cosine, seen}};
+            {cosine, seen},
+            mapping.follows_ground};
   }
 };
 

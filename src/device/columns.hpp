@@ -23,10 +23,11 @@ class Columns {
  public:
   // half_sizes: of particles, by body, in cells. An empty slope_cosine means level ground; an empty normal_gravity
   // means that no loads are computed.
-  Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPosition<Dim> slope_cosine,
-          band::OfPosition<Dim> normal_gravity)
+  Columns(Backend& backend, Real cell, const mpm::Mapping& mapping, const std::vector<Real>& half_sizes,
+          band::OfPosition<Dim> slope_cosine, band::OfPosition<Dim> normal_gravity)
       : backend_(backend),
         cell_(cell),
+        mapping_(mapping),
         slope_cosine_{std::move(slope_cosine), {}, Array<Real, Backend>(backend)},
         normal_gravity_{std::move(normal_gravity), {}, Array<Real, Backend>(backend)},
         sizes_(backend, half_sizes, cell) {}
@@ -56,7 +57,7 @@ class Columns {
   void sum(const TileTables<Dim>& tables, const mpm::ParticleView<Dim>& particles) {
     using InTile = SumInTile<Dim>;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
-                        InTile{tables, particles, sizes_.view(), cell_, parts_.data()});
+                        InTile{tables, particles, sizes_.view(), cell_, mapping_, parts_.data()});
     backend_.for_each(keys_.size(), SumParts<Part>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                    parts_.data(), sums_.data()});
     backend_.for_each(keys_.size(),
@@ -98,11 +99,13 @@ class Columns {
   }
 
   [[nodiscard]] ColumnsByTile<Dim> seen_with(const TileTables<Dim>& tables, const Array<Real, Backend>& cosine) const {
-    return {tables.tile_keys, column_.data(), sizes_.view(), cell_, thickness_.data(), top_.data(), cosine.data()};
+    return {tables.tile_keys, column_.data(),    sizes_.view(), cell_,
+            mapping_,         thickness_.data(), top_.data(),   cosine.data()};
   }
 
   Backend& backend_;
   Real cell_;
+  mpm::Mapping mapping_;
   ColumnQuery slope_cosine_, normal_gravity_;
   std::vector<std::uint64_t> known_keys_;  // of the columns
   BodySizes<Backend> sizes_;               // half sizes of particles [m]

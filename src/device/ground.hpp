@@ -80,7 +80,7 @@ struct CopyGround {
       record[c] = Real(0);
     }
     record[mpm::Planes::offset] = node.plane;
-    mpm::set_vector<Dim>(record, mpm::Planes::normal, node.normal);
+    mpm::set_vector<Dim>(record, mpm::Planes::normal, node.plane_scale * node.normal);
     is_candidate[k] = node.candidate ? 1 : 0;
   }
 };

@@ -10,7 +10,8 @@
 
 namespace thawslide::device {
 
-// Scaling xi of particles in the band: uniform, or from the thickness of the cells along the ground.
+// Scaling xi of particles in the band: uniform, or from the thickness of the cells along the ground, or of the layer of
+// cells that follow the ground.
 struct OneScaling {
   Real scaling;
 
@@ -18,6 +19,16 @@ struct OneScaling {
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD Real of(const Particles& /*particles*/, std::uint32_t /*p*/) const {
     return scaling;
+  }
+};
+template <int Dim>
+struct ScalingBySlope {
+  Real cell, thickness;  // of the grid and of the band [m]
+
+  [[nodiscard]] THAWSLIDE_HD ScalingBySlope in_tile(std::size_t /*tile*/) const { return *this; }
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& particles, std::uint32_t p) const {
+    return band::layer_along_normal<Dim>(cell, particles, p) / thickness;
   }
 };
 template <int Dim>

@@ -83,7 +83,9 @@ struct NodeStageArgs {
   NodeViews<Dim> nodes;
   mpm::DomainFaces<Dim> faces;
   Vector<Real, Dim> gravity;
-  Real cell, mass_damping, time, dt;
+  Real cell;
+  mpm::Mapping mapping;
+  Real mass_damping, time, dt;
   bool distance_check, pore_pressure, base_is_fixed;
 
   [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
@@ -94,6 +96,11 @@ struct NodeStageArgs {
   }
   [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
     return nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass] > Real(0);
+  }
+  // Clearance of a candidate node along the normal of the ground [m].
+  [[nodiscard]] THAWSLIDE_HD Real clearance_along_normal(std::size_t node) const {
+    return terrain::clearance_along_normal<Dim>(mapping, nodes.known[node].normal,
+                                                nodes.near_ground_at(node)[mpm::NearGround::clearance]);
   }
   // Finds node `local` of the block in a direction from a node's own block. Returns false if there is no such block.
   THAWSLIDE_HD bool find(std::size_t node, std::size_t direction, std::size_t local, std::size_t& found) const {
@@ -135,15 +142,16 @@ struct PressOnGround {
     if (step.has_mass(node)) {
       const auto state = step.trial(node);
       base[mpm::BaseLayout::load] =
-          known.bend * terrain::approach(step.distance_check,
-                                         step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
-                                         state.mass, Real(state.momentum.dot(known.normal)));
+          known.bend * terrain::approach(step.distance_check, step.clearance_along_normal(node), step.dt, state.mass,
+                                         Real(state.momentum.dot(known.normal)));
     }
     const std::size_t local = node % NodeStageArgs<Dim>::block_nodes;
     base[mpm::BaseLayout::covered] =
-        known.area * terrain::covered_fraction<Dim>(local, known.normal, [&](int direction, int further) {
-          return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
-        });
+        known.area *
+        terrain::covered_fraction<Dim>(
+            local, terrain::across_layers<Dim>(step.mapping, known.normal), [&](int direction, int further) {
+              return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
+            });
   }
 
  private:
@@ -187,8 +195,8 @@ struct GatherContactInput {
     }
     const Vector<Real, Dim>& normal = nodes.known[node].normal;
     const Real none[BaseLayout::size] = {};
-    const Real pressure =
-        terrain::base_pressure_of_node<Dim>(normal, step.dt, smallest_area, [&](std::size_t n) -> const Real* {
+    const Real pressure = terrain::base_pressure_of_node<Dim>(
+        step.mapping, normal, step.dt, smallest_area, [&](std::size_t n) -> const Real* {
           std::size_t other = 0;
           return find_neighbour(node, n, other) ? nodes.base_at(other) : none;
         });
@@ -348,9 +356,9 @@ struct MapBack {
       return;
     }
     const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > Real(0);
-    const terrain::GroundOfMappedBack<Dim> below{
-        touching, step.distance_check, touching ? &nodes.known[node].normal : nullptr,
-        touching ? nodes.near_ground_at(node)[mpm::NearGround::clearance] : Real(0)};
+    const terrain::GroundOfMappedBack<Dim> below{touching, step.distance_check,
+                                                 touching ? &nodes.known[node].normal : nullptr,
+                                                 touching ? step.clearance_along_normal(node) : Real(0)};
     Real* velocity = nodes.velocity_at(node);
     work = terrain::map_back<Dim>(step.walls(node), below, step.gravity, step.dt,
                                   static_cast<const Real*>(nodes.momentum_at(node)),

@@ -26,6 +26,7 @@ struct PassOver {
   Weights weights;
   TileFilter accepts;
   Real cell;
+  mpm::Mapping mapping;
 };
 
 template <class Over, class Reads, class Adds, int Dim, class... Kernels>
@@ -164,11 +165,11 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     mpm::OneGridPosition<Dim> from_node{{}, lowest, {}};
     for (std::size_t a = 0; a < Dim; ++a) {
       const int axis = static_cast<int>(a);
-      from_node.offset[axis] =
-          over.particles.position(at.particle[0], axis) * inverse_cell - static_cast<Real>(nearest[a]);
+      from_node.offset[axis] = over.mapping.template coordinate<Dim>(over.particles, at, axis) * inverse_cell -
+                               static_cast<Real>(nearest[a]);
       from_node.at_side[a] = over.weights.template at_side<Dim>(a, nearest[a]);
     }
-    mpm::OneWeights<Dim> weights;
+    mpm::OneWeights<Dim> weights(over.mapping, over.particles, at);
     over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
     const auto patches_read = memory.patches_read();
     const mpm::ScalarGather<mpm::OneWeights<Dim>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
@@ -179,6 +180,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
          of_particle.template of<Kernels>()),
      ...);
     slot.sums = of_particle;
+    (mpm::map_fluxes<Adds>(weights, carried.template of<Adds>()), ...);
     slot.carried = carried;
     slot.keep(weights);
   }

@@ -66,6 +66,39 @@ struct DeformMaterial {
   }
 };
 
+// Heights of columns of nodes in device memory.
+template <int Dim>
+struct ColumnHeights {
+  terrain::ColumnChunks<Dim> columns;
+  const double* heights;  // by chunk and column
+
+  [[nodiscard]] THAWSLIDE_HD double operator()(const typename terrain::ColumnChunks<Dim>::Column& column) const {
+    const auto place = columns.place_of(column);
+    return heights[place.chunk * static_cast<std::size_t>(columns.size) + place.column];
+  }
+};
+
+// Updates positions and, on cells that follow the ground, what depends on them alone.
+template <int Dim>
+struct UpdatePosition {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Totals = typename mpm::UpdatePosition<Dim>::Totals;
+
+  mpm::UpdatePosition<Dim> update;
+  bool follows_ground;
+  terrain::LocateAboveGround<Dim, ColumnHeights<Dim>> locate;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Totals& invalid) const {
+    update(particles, at, seen, added, invalid);
+    if (follows_ground) {
+      locate(particles, at);
+    }
+  }
+};
+
 // cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
 template <class Backend, int Dim>
 void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, Real cell,
@@ -107,6 +140,9 @@ class Step {
         maps_(backend, model.cell, model.half_sizes),
         band_columns_(backend, callbacks.columns),
         bed_(backend, callbacks.bed) {
+    if (passes_.model.mapping.follows_ground) {
+      column_heights_.set(callbacks.column_heights());
+    }
     sums_.set(std::vector<Sums>(1));
     free_gaps_.set(model.free_gaps);
   }
@@ -225,7 +261,8 @@ class Step {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = passes_.ground.sees_candidates();
-      passes_.run(passes_.momentum(sees), terrain::AddNearGround<Dim>{passes_.model.phases, passes_.model.lubrication});
+      passes_.run(passes_.momentum(sees), terrain::AddNearGround<Dim>{passes_.model.phases, passes_.model.lubrication,
+                                                                      passes_.model.mapping.follows_ground});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
                             band_columns_.states(), bases_.data());
@@ -295,7 +332,12 @@ class Step {
 
   // Updates positions and evaluates the reductions that the CPU requested.
   void update_positions() {
-    const mpm::UpdatePosition<Dim> update{passes_.model.lower, passes_.model.upper};
+    const UpdatePosition<Dim> update{{passes_.model.lower, passes_.model.upper},
+                                     passes_.model.mapping.follows_ground,
+                                     {passes_.model.columns,
+                                      {passes_.model.columns, column_heights_.data()},
+                                      passes_.body_sizes(),
+                                      static_cast<double>(passes_.model.cell)}};
     const FindExtremes<Dim> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
     const CountEscaped<Dim> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
@@ -328,6 +370,7 @@ class Step {
   Maps<Backend> maps_;
   BandColumns<Backend, Dim> band_columns_;
   ErodibleBed<Backend, Dim> bed_;
+  Array<double, Backend> column_heights_{passes_.backend};
   Array<Real, Backend> free_gaps_{passes_.backend};
   Array<ContactInput, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};

@@ -16,6 +16,7 @@
 #include "mpm/domain_faces.hpp"
 #include "mpm/kernel_totals.hpp"
 #include "mpm/map_sums.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/material.hpp"
 #include "mpm/records.hpp"
 #include "mpm/shape.hpp"
@@ -24,6 +25,7 @@
 #include "physics/mixture.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/bed_node.hpp"
+#include "terrain/column_heights.hpp"
 #include "terrain/contact_work.hpp"
 #include "terrain/surface.hpp"
 
@@ -31,7 +33,9 @@ namespace thawslide::device {
 
 template <int Dim>
 struct StepModel {
-  Real cell = 0;                                         // mesh size [m]
+  Real cell = 0;  // mesh size [m]
+  mpm::Mapping mapping;
+  terrain::ColumnChunks<Dim> columns;                    // of nodes; only if the cells follow the ground
   std::vector<Real> half_sizes;                          // of particles, by body, in cells
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   bool affine = false;                                   // APIC
@@ -125,6 +129,8 @@ inline constexpr std::size_t bed_record_size = static_cast<std::size_t>(mpm::Bed
 template <int Dim>
 struct HostCallbacks {
   GroundQuery<Dim> ground;
+  // Heights of all columns of nodes [m] (terrain/following_ground.hpp). Empty on level cells.
+  std::function<std::vector<double>()> column_heights;
   // As in band/flow_depth.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPosition<Dim> slope_cosine, normal_gravity;
   LayerAtMiddle<Dim> layer_at_middle;

@@ -25,7 +25,7 @@ class StepPasses {
       : backend(used),
         model(known),
         particles(used, of_cpu, count),
-        cells(used, known.cell),
+        cells(used, known.cell, known.mapping),
         ground(used, query_ground),
         sizes_(used, known.half_sizes, Real(1)) {}
   StepPasses(const StepPasses&) = delete;
@@ -60,7 +60,7 @@ class StepPasses {
   }
   template <class Weights, class TileFilter>
   [[nodiscard]] PassOver<Weights, TileFilter, Dim> over(const Weights& weights, const TileFilter& accepts) const {
-    return {cells.tables(), particles.view(), weights, accepts, model.cell};
+    return {cells.tables(), particles.view(), weights, accepts, model.cell, model.mapping};
   }
   template <class Over, class... Kernels>
   SumsOf<Kernels...>* run(const Over& over, const Kernels&... kernels) {
@@ -89,8 +89,8 @@ class StepPasses {
   }
   [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
   [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(Real time, Real dt) {
-    return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,         model.mass_damping,
-            time,           dt,      model.distance_check, model.pore_pressure, model.base_is_fixed};
+    return {cells.tables(),     views(), model.faces, model.gravity,        model.cell,          model.mapping,
+            model.mass_damping, time,    dt,          model.distance_check, model.pore_pressure, model.base_is_fixed};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).

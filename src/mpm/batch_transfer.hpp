@@ -39,7 +39,7 @@ THAWSLIDE_ALWAYS_INLINE BatchGridPosition<Dim> grid_position(const SparseGrid<Di
   BatchGridPosition<Dim> at;
   for (int a = 0; a < Dim; ++a) {
     at.node[a] = Simd<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
-    at.offset[a] = grid.mapping().coordinate(particles, batch, a) * grid.inverse_cell() - at.node[a];
+    at.offset[a] = grid.mapping().template coordinate<Dim>(particles, batch, a) * grid.inverse_cell() - at.node[a];
   }
   return at;
 }

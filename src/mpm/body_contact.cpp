@@ -113,7 +113,8 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {
         const Real along =
-            grid.mapping().coordinate(particles, at, static_cast<int>(a)) * grid.inverse_cell() + Real(0.5);
+            grid.mapping().template coordinate<Dim>(particles, at, static_cast<int>(a)) * grid.inverse_cell() +
+            Real(0.5);
         one.nearest[a] = static_cast<int>(std::floor(along)) - first_node[a];
         reaches = reaches && one.nearest[a] >= -1 && one.nearest[a] <= T::edge;
       }

@@ -9,6 +9,7 @@
 
 #include "base/linear.hpp"
 #include "base/select.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 #include "mpm/scalar_index.hpp"
@@ -25,6 +26,7 @@ struct OneFlux<Dim, true> {
 template <int Dim, std::size_t Components, bool HasFlux>
 struct OneContribution : OneFlux<Dim, HasFlux> {
   static constexpr std::size_t size = record_size(static_cast<int>(Components));
+  static constexpr std::size_t width = record_step;  // components with a flux
 
   Real value[size] = {};
 };
@@ -64,6 +66,11 @@ struct OneWeights {
   OneStencil<Dim, 2> linear;
   OneStencil<Dim, 3> momentum, affine;
   Vector<Real, Dim> moment;
+  MappingAt<Dim, Real> mapping, linear_mapping;
+
+  template <class Particles>
+  THAWSLIDE_HD OneWeights(const Mapping& grid, const Particles& particles, const ScalarIndex& at)
+      : mapping(grid, particles.ground_slope, at), linear_mapping(grid, particles.linear_slope, at) {}
 
   // Weights at the corners of the grid cell that contains the particle.
   THAWSLIDE_HD void set_linear(const OneGridPosition<Dim>& at, Real inverse_cell) {
@@ -105,11 +112,19 @@ struct OneWeights {
       return momentum;
     }
   }
-  // As those of a batch, on level cells.
+  template <class Functions>
+  [[nodiscard]] THAWSLIDE_HD const auto& mapping_of() const {
+    if constexpr (std::is_same_v<Functions, LinearFunctions>) {
+      return linear_mapping;
+    } else {
+      return mapping;
+    }
+  }
+  // As those of a batch.
   using Square = Matrix<Real, Dim>;
-  [[nodiscard]] THAWSLIDE_HD Square affine_on_grid(const Square& gradient) const { return gradient; }
+  [[nodiscard]] THAWSLIDE_HD Square affine_on_grid(const Square& gradient) const { return mapping.on_grid(gradient); }
   [[nodiscard]] THAWSLIDE_HD Square affine_moment(const Square& gradient) const {
-    return gradient * moment.asDiagonal();
+    return affine_on_grid(gradient) * moment.asDiagonal();
   }
 };
 
@@ -123,12 +138,12 @@ struct ScalarGather {
   [[nodiscard]] THAWSLIDE_HD auto read(std::size_t first = 0) const {
     const auto& stencil = weights.template of<typename Name::Functions>();
     const auto& patch = patches.template of<Name>();
-    return read_along_axes<Count>(
+    return weights.template mapping_of<typename Name::Functions>().in_space(read_along_axes<Count>(
         stencil.axis,
         [&](std::size_t index, std::size_t component) {
           return patch.numbers[(stencil.first + index) * patch.size + component];
         },
-        first);
+        first));
   }
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD const auto* planes() const {

@@ -29,7 +29,7 @@ struct BatchWeights;
 template <int Dim>
 struct BatchWeights<LinearWeights, Dim> {
   LinearStencil<Dim> linear;
-  BatchMapping<Dim> linear_mapping;
+  MappingAt<Dim, Simd<Real>> linear_mapping;
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const LinearWeights& /*weights*/, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
@@ -48,7 +48,7 @@ template <int Dim>
 struct BatchWeights<MomentumWeights<Dim>, Dim> {
   BatchStencil<Dim> momentum;
   LinearStencil<Dim> linear;
-  BatchMapping<Dim> mapping, linear_mapping;
+  MappingAt<Dim, Simd<Real>> mapping, linear_mapping;
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
@@ -181,7 +181,7 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim> {
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
                                    [[maybe_unused]] Scatter& added) {
-    (to_grid<Adds>(weights, added.template of<Adds>()), ...);
+    (map_fluxes<Adds>(weights, added.template of<Adds>()), ...);
     (sums_.template of<Adds>().add(weights.template of<typename Adds::Functions>(), count, added.template of<Adds>()),
      ...);
   }
@@ -189,16 +189,6 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim> {
   THAWSLIDE_ALWAYS_INLINE void skip() { (sums_.template of<Adds>().skip(), ...); }
 
  private:
-  // The kernels of APIC map their fluxes themselves.
-  template <class Name, class Weights, class Carried>
-  THAWSLIDE_ALWAYS_INLINE static void to_grid([[maybe_unused]] const Weights& weights,
-                                              [[maybe_unused]] Carried& carried) {
-    if constexpr (!IsMinReduced<Name> && !std::is_same_v<typename Name::Functions, AffineFunctions>) {
-      if constexpr (Name::flux != no_flux) {
-        weights.template mapping_of<typename Name::Functions>().to_grid(carried);
-      }
-    }
-  }
   template <class Name, class Records>
   static auto& cleared(Records& records, const SparseGrid<Dim>& grid, std::size_t tile) {
     auto& patch = records.template of<Name>().patches(grid.tiles().size())[tile];

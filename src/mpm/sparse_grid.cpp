@@ -115,7 +115,7 @@ bool SparseGrid<Dim>::compute_keys(const Particles<Dim>& particles) {
       const auto batch = batch_in_memory(first, last);
       std::int32_t nearest[Dim * most];
       for (int a = 0; a < Dim; ++a) {
-        floor(mapping_.coordinate(particles, batch, a) * inverse_cell_ + Real(0.5))
+        floor(mapping_.template coordinate<Dim>(particles, batch, a) * inverse_cell_ + Real(0.5))
             .store_whole(nearest + static_cast<std::size_t>(a) * most);
       }
       std::fill_n(&moved_[first], most, std::uint8_t{0});

@@ -79,7 +79,7 @@ device::HostColumns Simulation<Dim>::host_columns() {
   if (!band_columns_) {
     return {};
   }
-  grid_of_device_ = std::make_unique<GridOfDevice<Dim>>(grid_.cell());
+  grid_of_device_ = std::make_unique<GridOfDevice<Dim>>(grid_.cell(), grid_.mapping());
   return {[this](const std::vector<std::uint64_t>& blocks) {
             update_blocks(model_, blocks, *grid_of_device_);
             return grid_of_device_->requested_blocks;

@@ -1,8 +1,5 @@
 #include "sim/device_model.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "base/instances.hpp"
 #include "sim/filter_times.hpp"
 #include "sim/terrain_at_columns.hpp"
@@ -16,7 +13,6 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim>& mod
     bool is_requested;
     const char* what;
   } options[] = {
-      {model.following != nullptr, "grid.follows_terrain"},
       {model.motion.width.varies(), "a case.width that varies along x"},
       {!model.constraints.frames.empty(), "a [frame]"},
       {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
@@ -36,6 +32,10 @@ template <int Dim>
 device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts) {
   device::StepModel<Dim> device;
   device.cell = static_cast<Real>(parameters.grid.cell);
+  device.mapping = mapping_of(model);
+  if (model.following) {
+    device.columns = model.following->columns();
+  }
   for (std::size_t body = 0; body < model.body_names.size(); ++body) {
     device.half_sizes.push_back(model.motion.sizes.half(body));
   }
@@ -89,20 +89,12 @@ device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double ce
   device::HostCallbacks<Dim> callbacks;
   if (model.ground) {
     callbacks.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
-      std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
-      terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
-      std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
-        return terrain::GroundAtNode<Dim>{node.candidate,
-                                          node.substrate,
-                                          node.normal.template cast<Real>(),
-                                          static_cast<Real>(node.area),
-                                          static_cast<Real>(node.bend),
-                                          static_cast<Real>(node.plane),
-                                          static_cast<Real>(node.space),
-                                          static_cast<Real>(node.distance)};
-      });
+      terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, nodes);
       return terrain::is_ground_known<Dim>(*model.ground, block, cell);
     };
+  }
+  if (model.following) {
+    callbacks.column_heights = [&model] { return model.following->column_heights(); };
   }
   if (model.band.normal_thickness) {
     callbacks.slope_cosine = slope_cosine_of(model, cell);

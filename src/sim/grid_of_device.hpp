@@ -12,7 +12,7 @@ namespace thawslide::sim {
 
 template <int Dim>
 struct GridOfDevice {
-  explicit GridOfDevice(Real cell) : grid(cell) {}
+  GridOfDevice(Real cell, const mpm::Mapping& mapping) : grid(cell, {}, mapping) {}
 
   mpm::SparseGrid<Dim> grid;
   terrain::GroundOnGrid<Dim> ground;

@@ -132,12 +132,16 @@ mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vec
       constraints.faces[2 * a + side] = parameters.grid.boundary[2 * a + side];
     }
   }
+  Vector<double, Dim> zero = origin;  // of the grid
+  if (parameters.grid.follows_terrain && parameters.terrain.kind == config::TerrainKind::flat) {
+    zero[Dim - 1] = parameters.terrain.elevation;
+  }
   for (const auto& [name, frame] : parameters.frames) {
     mpm::RigidFrame<Dim> rigid;
     for (std::size_t a = 0; a < Dim; ++a) {
       const int i = static_cast<int>(a);
-      rigid.lower[i] = static_cast<Real>(frame.min[a] - origin[i]);
-      rigid.upper[i] = static_cast<Real>(frame.max[a] - origin[i]);
+      rigid.lower[i] = static_cast<Real>(frame.min[a] - zero[i]);
+      rigid.upper[i] = static_cast<Real>(frame.max[a] - zero[i]);
     }
     rigid.axis = frame.axis == "x" ? 0 : frame.axis == "y" ? 1 : 2;
     rigid.velocity = static_cast<Real>(frame.velocity);
@@ -281,33 +285,13 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
   return std::make_shared<terrain::ProfileSurface<Dim>>(*model.profile, model.motion.width);
 }
 
-// Makes the cells of the grid follow the ground. The layers of nodes have no end along the vertical.
-template <int Dim>
-void follow_ground(const config::Case& parameters, Model<Dim>& model) {
-  const typename terrain::Surface<Dim>::Point extent =
-      model.constraints.extent.template head<Dim - 1>().template cast<double>();
-  model.following =
-      std::make_shared<terrain::FollowingGround<Dim>>(model.ground, parameters.grid.cell, extent, model.motion.sizes,
-                                                      model.motion.width, std::tan(radians(parameters.grid.steepest)));
-  model.ground = model.following;
-  model.constraints.faces[2 * (Dim - 1)] = model.constraints.faces[2 * Dim - 1] = config::BoundaryKind::open;
-  model.motion.sides.lower[Dim - 1] = model.motion.sides.upper[Dim - 1] = mpm::PrescribedSides<Dim>::none;
-}
-
 // Sets the thickness of the cells that form the band if it follows the ground, and its maximum at the initial bodies.
 template <int Dim>
 void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim>& model) {
   using Layer = terrain::LayerThickness<Dim>;
   using Point = typename Layer::Point;
   model.largest_layer = static_cast<Real>(parameters.grid.cell);
-  if (model.following) {  // layers have one thickness along the vertical
-    const double cell = parameters.grid.cell;
-    model.layer_thickness = [ground = model.following, cell](const Vector<Real, Dim - 1>& point) {
-      return static_cast<Real>(cell * ground->slope_cosine(point.template cast<double>(), cell));
-    };
-    return;
-  }
-  if (!model.ground || parameters.band.cut_cells != config::CutCells::equal_thickness) {
+  if (!model.ground || model.following || parameters.band.cut_cells != config::CutCells::equal_thickness) {
     return;
   }
   const config::Body& body = parameters.bodies.begin()->second;
@@ -384,8 +368,11 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
   model.ground = make_ground(parameters, site, model);
-  if (parameters.grid.follows_terrain) {
-    follow_ground(parameters, model);
+  if (parameters.grid.follows_terrain && model.ground) {
+    model.following = std::make_shared<terrain::FollowingGround<Dim>>(
+        model.ground, parameters.grid.cell, model.constraints.extent.template head<Dim - 1>().template cast<double>(),
+        model.motion.sizes, model.motion.width, std::tan(radians(parameters.grid.steepest)));
+    model.ground = model.following;
   }
   model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);

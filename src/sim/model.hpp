@@ -43,11 +43,16 @@ struct Model {
   std::vector<std::string> body_names, material_names;  // by number; the last body is the entrained bed material
 };
 
+template <int Dim>
+mpm::Mapping mapping_of(const Model<Dim>& model) {
+  return {model.following != nullptr};
+}
+
 // Background grid without particles.
 template <int Dim>
 mpm::SparseGrid<Dim> make_grid(const config::Case& parameters, const Model<Dim>& model) {
   return mpm::SparseGrid<Dim>(static_cast<Real>(parameters.grid.cell), model.between_bodies.layer_of_body,
-                              {model.following != nullptr});
+                              mapping_of(model));
 }
 
 // site: contents of the map files of the case; required if the terrain is a DEM.

@@ -208,7 +208,8 @@ void Simulation<Dim>::rescale_band() {
     return;
   }
   Real added = 0;
-  const bool depends_on_position = model_.band.region != band::BandRegion::all || model_.layer_thickness;
+  const bool depends_on_position =
+      model_.band.region != band::BandRegion::all || model_.layer_thickness || model_.following;
   if (depends_on_position || band_thickness() != current_band_thickness_) {
     current_band_thickness_ = band_thickness();
     added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,

@@ -43,6 +43,7 @@ void Simulation<Dim>::on_device(const std::function<void()>& work) const {
 template <int Dim>
 device::StepSums<Dim> Simulation<Dim>::step_on_device() {
   if (!device_solver_) {
+    locate_particles();
     device::HostCallbacks<Dim> callbacks = terrain_for_device(model_, parameters_.grid.cell);
     callbacks.columns = host_columns();
     callbacks.bed = host_bed();

@@ -42,16 +42,9 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
       --along;
     }
     const auto first = static_cast<std::size_t>(T::in_patch(lowest));
-    if (grid.mapping().follows_ground) {
-      pressure[static_cast<std::size_t>(k)] = pressure_of_column<Dim>(
-          dt, smallest_area, [&](std::size_t layer) -> const auto& {
-            constexpr std::size_t below = mpm::CellNodes<Dim>::index(Dim == 2 ? 1 : 4);
-            return patch.records[first + below + layer * mpm::CellNodes<Dim>::index(Dim == 2 ? 3 : 9)];
-          });
-      continue;
-    }
     pressure[static_cast<std::size_t>(k)] = base_pressure_of_node<Dim>(
-        ground.block(b)[static_cast<std::size_t>(k)].normal, dt, smallest_area, [&](std::size_t node) -> const auto& {
+        grid.mapping(), ground.block(b)[static_cast<std::size_t>(k)].normal, dt,
+        smallest_area, [&](std::size_t node) -> const auto& {
           return patch.records[first + mpm::CellNodes<Dim>::index(node)];
         });
   }

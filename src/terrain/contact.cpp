@@ -106,12 +106,14 @@ Real filled_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim
 template <int Dim>
 Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                          const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
-  return covered_fraction<Dim>(k, across_layers(grid, ground.block(b)[k].normal), [&](int direction, int node) {
-    const std::int32_t block = grid.blocks_about_block(b)[direction];
-    return block == KeyIndex::absent ? Real(0)
-                                     : filled_fraction_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
-                                                          static_cast<std::size_t>(node));
-  });
+  return covered_fraction<Dim>(
+      k, across_layers<Dim>(grid.mapping(), ground.block(b)[k].normal), [&](int direction, int node) {
+        const std::int32_t block = grid.blocks_about_block(b)[direction];
+        return block == KeyIndex::absent
+                   ? Real(0)
+                   : filled_fraction_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
+                                        static_cast<std::size_t>(node));
+      });
 }
 
 // Initializes a block without contact. known: ground at its nodes.
@@ -217,10 +219,10 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
         const mpm::NodeConstraints<Dim> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
-            known.bend *
-            approach(model.distance_check,
-                     clearance_along_normal(grid, known.normal, nodes.near_ground(b, k)[NearGround::clearance]), dt,
-                     state.mass, Real(state.momentum.dot(known.normal)));
+            known.bend * approach(model.distance_check,
+                                  clearance_along_normal<Dim>(grid.mapping(), known.normal,
+                                                              nodes.near_ground(b, k)[NearGround::clearance]),
+                                  dt, state.mass, Real(state.momentum.dot(known.normal)));
         if (base[BaseLayout::load] > Real(0)) {
           loaded[b] = 1;
         }

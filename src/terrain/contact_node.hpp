@@ -8,6 +8,7 @@
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "base/select.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/records.hpp"
 #include "mpm/tile.hpp"
 #include "mpm/vectors_in_records.hpp"
@@ -71,6 +72,18 @@ inline THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, 
   return max(Real(0), distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
 }
 
+// Clearance along the normal [m] from that of a record, which is along the vertical on cells that follow the ground.
+template <int Dim>
+THAWSLIDE_HD Real clearance_along_normal(const mpm::Mapping& mapping, const Vector<Real, Dim>& normal, Real clearance) {
+  return mapping.follows_ground ? -normal[Dim - 1] * clearance : clearance;
+}
+
+// Direction into the ground across the layers of nodes near it.
+template <int Dim>
+THAWSLIDE_HD Vector<Real, Dim> across_layers(const mpm::Mapping& mapping, const Vector<Real, Dim>& normal) {
+  return mapping.follows_ground ? Vector<Real, Dim>(-Vector<Real, Dim>::Unit(Dim - 1)) : normal;
+}
+
 // Filled fraction of a node's space [m3], 0 to 1.
 inline THAWSLIDE_HD Real filled_fraction(Real volume, Real space) { return volume < space ? volume / space : Real(1); }
 
@@ -90,11 +103,28 @@ THAWSLIDE_HD Real covered_fraction(std::size_t node, const Vector<Real, Dim>& in
   return fraction;
 }
 
+// Normal pressure [Pa] of a node on cells that follow the ground, where the column of the node alone has both load and
+// area. Nodes below the ground bear load of particles that have sunk in. base: as below.
+template <int Dim, class Base>
+THAWSLIDE_HD Real pressure_of_column(Real dt, Real smallest_area, const Base& base) {
+  constexpr std::size_t columns = Dim == 2 ? 3 : 9;
+  Real load = 0, covered = 0;
+  for (std::size_t layer = 0; layer < 3; ++layer) {
+    const auto& record = base(columns / 2 + layer * columns);
+    load += record[mpm::BaseLayout::load];
+    covered += record[mpm::BaseLayout::covered];
+  }
+  return load / (dt * max(covered, smallest_area));
+}
+
 // Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): record of BaseLayout of neighbour
 // k of 3^Dim, including the node itself, x fastest.
 template <int Dim, class Base>
-THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Real dt, Real smallest_area,
-                                        const Base& base) {
+THAWSLIDE_HD Real base_pressure_of_node(const mpm::Mapping& mapping, const Vector<Real, Dim>& into_ground, Real dt,
+                                        Real smallest_area, const Base& base) {
+  if (mapping.follows_ground) {
+    return pressure_of_column<Dim>(dt, smallest_area, base);
+  }
   const int across = main_axis<Dim>(into_ground);
   const auto weight = [&](int axis, std::size_t k) {
     return axis == across ? Real(1) : k == 1 ? Real(0.5) : Real(0.25);
@@ -108,19 +138,6 @@ THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Re
     const auto& record = base(k);
     load += along * record[mpm::BaseLayout::load];
     covered += along * record[mpm::BaseLayout::covered];
-  }
-  return load / (dt * max(covered, smallest_area));
-}
-
-// The same on cells that follow the ground, where the column of the node alone has both load and area. Nodes below the
-// ground bear load of particles that have sunk in. base(layer): record of BaseLayout of the node below, the node itself
-// and the node above.
-template <int Dim, class Base>
-THAWSLIDE_HD Real pressure_of_column(Real dt, Real smallest_area, const Base& base) {
-  Real load = 0, covered = 0;
-  for (std::size_t layer = 0; layer < 3; ++layer) {
-    load += base(layer)[mpm::BaseLayout::load];
-    covered += base(layer)[mpm::BaseLayout::covered];
   }
   return load / (dt * max(covered, smallest_area));
 }

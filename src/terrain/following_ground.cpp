@@ -12,12 +12,6 @@ namespace thawslide::terrain {
 
 namespace {
 
-constexpr int margin = 8;       // columns beyond the domain
-constexpr int chunk_edge = 16;  // columns computed together, along each axis
-
-template <int Dim>
-constexpr int columns_of_chunk = Dim == 2 ? chunk_edge : chunk_edge* chunk_edge;
-
 // Bends of the terrain beyond this multiple of those of the columns' heights are not counted. On thalwegs of V
 // channels, terrain bends 2.0 to 2.3 times as much.
 constexpr double most_bend = 3.0;
@@ -34,11 +28,6 @@ std::array<int, Dim - 1> column_of_chunk(std::array<int, Dim - 1> first, int num
   return first;
 }
 
-// Whole number, limited to a range; the lower end for a number that is not finite.
-int limited(double number, int from, int to) {
-  return static_cast<int>(std::max(static_cast<double>(from), std::min(number, static_cast<double>(to))));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -47,9 +36,9 @@ FollowingGround<Dim>::FollowingGround(std::shared_ptr<const Surface<Dim>> terrai
     : terrain_(std::move(terrain)), cell_(cell), sizes_(sizes), width_(std::move(width)) {
   std::size_t count = 1;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    columns_[a] = static_cast<int>(std::lround(extent[static_cast<int>(a)] / cell)) + 1 + 2 * margin;
-    chunks_[a] = (columns_[a] + chunk_edge - 1) / chunk_edge;
-    count *= static_cast<std::size_t>(chunks_[a]);
+    columns_.columns[a] = static_cast<int>(std::lround(extent[static_cast<int>(a)] / cell)) + 1 + 2 * column_margin;
+    columns_.chunks[a] = (columns_.columns[a] + chunk_edge - 1) / chunk_edge;
+    count *= static_cast<std::size_t>(columns_.chunks[a]);
   }
   made_ = std::vector<std::atomic<double*>>(count);
   limit_slopes(steepest);
@@ -66,8 +55,8 @@ template <int Dim>
 typename FollowingGround<Dim>::Column FollowingGround<Dim>::first_of_chunk(std::size_t chunk) const {
   Column first{};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    first[a] = static_cast<int>(chunk % static_cast<std::size_t>(chunks_[a])) * chunk_edge - margin;
-    chunk /= static_cast<std::size_t>(chunks_[a]);
+    first[a] = static_cast<int>(chunk % static_cast<std::size_t>(columns_.chunks[a])) * chunk_edge - column_margin;
+    chunk /= static_cast<std::size_t>(columns_.chunks[a]);
   }
   return first;
 }
@@ -89,8 +78,8 @@ double* FollowingGround<Dim>::heights_of_chunk(std::size_t chunk) const {
     return known;
   }
   const Column first = first_of_chunk(chunk);
-  auto heights = std::make_unique<double[]>(columns_of_chunk<Dim>);
-  for (int c = 0; c < columns_of_chunk<Dim>; ++c) {
+  auto heights = std::make_unique<double[]>(ColumnChunks<Dim>::size);
+  for (int c = 0; c < ColumnChunks<Dim>::size; ++c) {
     heights[static_cast<std::size_t>(c)] =
         terrain_->column_means(place_of(column_of_chunk<Dim>(first, c)), cell_).height;
   }
@@ -102,13 +91,18 @@ double* FollowingGround<Dim>::heights_of_chunk(std::size_t chunk) const {
 
 template <int Dim>
 double& FollowingGround<Dim>::column_height(const Column& column) const {
-  std::size_t chunk = 0, place = 0;
-  for (std::size_t a = Dim - 1; a-- > 0;) {
-    const auto along = static_cast<std::size_t>(std::clamp(column[a] + margin, 0, columns_[a] - 1));
-    chunk = chunk * static_cast<std::size_t>(chunks_[a]) + along / chunk_edge;
-    place = place * chunk_edge + along % chunk_edge;
-  }
-  return heights_of_chunk(chunk)[place];
+  const auto place = columns_.place_of(column);
+  return heights_of_chunk(place.chunk)[place.column];
+}
+
+template <int Dim>
+std::vector<double> FollowingGround<Dim>::column_heights() const {
+  constexpr auto size = static_cast<std::size_t>(ColumnChunks<Dim>::size);
+  std::vector<double> heights(made_.size() * size);
+  parallel_for(made_.size(), [&](std::size_t chunk) {
+    std::copy_n(heights_of_chunk(chunk), size, heights.begin() + static_cast<std::ptrdiff_t>(chunk * size));
+  });
+  return heights;
 }
 
 // Chunks with terrain steeper than a gradient within reach of the hat functions of its columns and their neighbours.
@@ -147,7 +141,7 @@ void FollowingGround<Dim>::limit_slopes(double steepest) {
         bool exists = true;
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
           about[a] += step[a];
-          exists = exists && about[a] >= -margin && about[a] < columns_[a] - margin;
+          exists = exists && about[a] >= -column_margin && about[a] < columns_.columns[a] - column_margin;
         }
         const double height = from + steepest * std::hypot(step[0], step[1]) * cell_;
         if (exists && column_height(about) > height + round_off * cell_) {
@@ -157,7 +151,7 @@ void FollowingGround<Dim>::limit_slopes(double steepest) {
     }
   };
   for (const std::size_t chunk : chunks_steeper_than(steepest)) {
-    for (int c = 0; c < columns_of_chunk<Dim>; ++c) {
+    for (int c = 0; c < ColumnChunks<Dim>::size; ++c) {
       compare_neighbours(column_of_chunk<Dim>(first_of_chunk(chunk), c));
     }
   }
@@ -174,7 +168,7 @@ void FollowingGround<Dim>::limit_slopes(double steepest) {
   for (const auto& [column, former] : lowered) {
     bool is_inside = terrain_->is_known(place_of(column));
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      is_inside = is_inside && column[a] >= 0 && column[a] < columns_[a] - 2 * margin;
+      is_inside = is_inside && column[a] >= 0 && column[a] < columns_.columns[a] - 2 * column_margin;
     }
     if (is_inside) {
       ++lowering_.columns;
@@ -187,42 +181,8 @@ void FollowingGround<Dim>::limit_slopes(double steepest) {
 }
 
 template <int Dim>
-typename FollowingGround<Dim>::Below FollowingGround<Dim>::below(const Point& point, double half) const {
-  Column lowest{};
-  std::array<mpm::AxisWeights<double>, Dim - 1> axis, linear;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const double in_cells = point[static_cast<int>(a)] / cell_;
-    const double node = std::floor(in_cells + 0.5);
-    lowest[a] = limited(node, -margin, columns_[a] - margin) - 1;
-    axis[a] = mpm::ugimp_weights<double>(in_cells - node, half, 1.0 / cell_);
-    linear[a] = mpm::linear_weights<double>(in_cells - node, 1.0 / cell_);
-  }
-  Below found{0.0, Point::Zero(), Point::Zero()};
-  if constexpr (Dim == 2) {
-    for (int i = 0; i < 3; ++i) {
-      const double b = column_height({lowest[0] + i});
-      found.height += axis[0].weight[i] * b;
-      found.slope[0] += axis[0].slope[i] * b;
-      found.linear_slope[0] += linear[0].slope[i] * b;
-    }
-  } else {
-    for (int j = 0; j < 3; ++j) {
-      double along = 0.0, slope = 0.0, linear_along = 0.0, linear_slope = 0.0;
-      for (int i = 0; i < 3; ++i) {
-        const double b = column_height({lowest[0] + i, lowest[1] + j});
-        along += axis[0].weight[i] * b;
-        slope += axis[0].slope[i] * b;
-        linear_along += linear[0].weight[i] * b;
-        linear_slope += linear[0].slope[i] * b;
-      }
-      found.height += axis[1].weight[j] * along;
-      found.slope[0] += axis[1].weight[j] * slope;
-      found.slope[1] += axis[1].slope[j] * along;
-      found.linear_slope[0] += linear[1].weight[j] * linear_slope;
-      found.linear_slope[1] += linear[1].slope[j] * linear_along;
-    }
-  }
-  return found;
+GroundBelow<Dim> FollowingGround<Dim>::below(const Point& point, double half) const {
+  return ground_below(point, half, cell_, columns_, [this](const Column& column) { return column_height(column); });
 }
 
 template <int Dim>
@@ -341,18 +301,10 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, double cell, int edg
 
 template <int Dim>
 void FollowingGround<Dim>::locate(mpm::Particles<Dim>& particles) const {
-  parallel_for(particles.size(), std::size_t{1024}, [&](std::size_t p) {
-    Point point;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      point[a] = static_cast<double>(particles.position(p, a));
-    }
-    const Below ground = below(point, static_cast<double>(sizes_.half(static_cast<std::size_t>(particles.body(p)))));
-    particles.height_above_ground(p) = particles.position(p, Dim - 1) - static_cast<Real>(ground.height);
-    for (int a = 0; a + 1 < Dim; ++a) {
-      particles.ground_slope(p, a) = static_cast<Real>(ground.slope[a]);
-      particles.linear_slope(p, a) = static_cast<Real>(ground.linear_slope[a]);
-    }
-  });
+  const auto height = [this](const Column& column) { return column_height(column); };
+  const LocateAboveGround<Dim, decltype(height)> locate_one{columns_, height, sizes_.view(), cell_};
+  parallel_for(particles.size(), std::size_t{1024},
+               [&](std::size_t p) { locate_one(particles, mpm::ScalarIndex{{static_cast<std::uint32_t>(p)}}); });
 }
 
 template class FollowingGround<2>;

@@ -15,6 +15,7 @@
 #include "mpm/body_sizes.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
+#include "terrain/column_heights.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::terrain {
@@ -72,12 +73,12 @@ class FollowingGround final : public Surface<Dim> {
   // Sets the height above the ground and the slopes of the ground of all particles, from their positions.
   void locate(mpm::Particles<Dim>& particles) const;
 
+  // Heights of all columns of nodes, by chunk and column, for solvers on a device.
+  [[nodiscard]] const ColumnChunks<Dim>& columns() const { return columns_; }
+  [[nodiscard]] std::vector<double> column_heights() const;
+
  private:
-  using Column = std::array<int, Dim - 1>;
-  struct Below {
-    double height;
-    Point slope, linear_slope;  // by the shape functions of momentum, and by linear ones
-  };
+  using Column = typename ColumnChunks<Dim>::Column;
   // Bend and direction of the ground of a column as far as the heights of columns resolve it.
   struct Resolved {
     Point slope;       // mean by the hat function
@@ -92,7 +93,7 @@ class FollowingGround final : public Surface<Dim> {
   [[nodiscard]] Point place_of(const Column& column) const;
   [[nodiscard]] std::vector<std::size_t> chunks_steeper_than(double steepest) const;
   void limit_slopes(double steepest);
-  [[nodiscard]] Below below(const Point& point, double half) const;
+  [[nodiscard]] GroundBelow<Dim> below(const Point& point, double half) const;
   [[nodiscard]] Resolved resolved(const Column& column) const;
   [[nodiscard]] double largest_bend_about(const Column& column) const;
   [[nodiscard]] double* heights_of_chunk(std::size_t chunk) const;
@@ -101,7 +102,7 @@ class FollowingGround final : public Surface<Dim> {
   double cell_;
   mpm::BodySizes sizes_;
   mpm::SectionWidth width_;
-  Column columns_{}, chunks_{};  // along each axis, including the margins
+  ColumnChunks<Dim> columns_;
   Lowering lowering_;
   mutable std::vector<std::atomic<double*>> made_;  // heights by chunk, x fastest; null: not yet computed
 };

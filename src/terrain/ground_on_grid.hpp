@@ -48,18 +48,6 @@ void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std
   }
 }
 
-// Clearance along the normal [m] from that of a record, which is along the vertical on cells that follow the ground.
-template <int Dim>
-Real clearance_along_normal(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& normal, Real clearance) {
-  return grid.mapping().follows_ground ? -normal[Dim - 1] * clearance : clearance;
-}
-
-// Direction into the ground across the layers of nodes near it.
-template <int Dim>
-Vector<Real, Dim> across_layers(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& normal) {
-  return grid.mapping().follows_ground ? Vector<Real, Dim>(-Vector<Real, Dim>::Unit(Dim - 1)) : normal;
-}
-
 template <int Dim>
 class GroundOnGrid {
   using T = mpm::Tile<Dim>;
@@ -156,23 +144,11 @@ class GroundOnGrid {
   }
 
   void evaluate(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
-    std::array<GroundAtNode<Dim>, static_cast<std::size_t>(T::nodes)> nodes;
-    query_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
+    query_ground<Dim>(surface, substrates, keys_[k], cell, blocks_[k].data());
     any_candidate_[k] = 0;
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      GroundAtNode<Dim>& known = blocks_[k][n];
-      known.candidate = nodes[n].candidate;
-      known.substrate = nodes[n].substrate;
-      known.normal = nodes[n].normal.template cast<Real>();
-      known.area = static_cast<Real>(nodes[n].area);
-      known.bend = static_cast<Real>(nodes[n].bend);
-      known.plane = static_cast<Real>(nodes[n].plane);
-      known.space = static_cast<Real>(nodes[n].space);
-      known.distance = static_cast<Real>(nodes[n].distance);
-      known.elevation = static_cast<Real>(nodes[n].elevation);
-      known.plane_scale = static_cast<Real>(nodes[n].plane_scale);
-      any_candidate_[k] |= known.candidate ? 1 : 0;
+    for (const GroundAtNode<Dim>& node : blocks_[k]) {
+      any_candidate_[k] |= node.candidate ? 1 : 0;
     }
   }
 

@@ -86,7 +86,7 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
         particles.position(at.particle[0], static_cast<int>(a)) * tile.inverse_cell - static_cast<Real>(nearest);
     position.at_side[a] = nearest == tile.sides[0][a] || nearest == tile.sides[1][a];
   }
-  mpm::OneWeights<Dim> weights;
+  mpm::OneWeights<Dim> weights(mpm::Mapping{}, particles, at);
   weights.set_linear(position, tile.inverse_cell);
   weights.template set_momentum<Shape>(position, tile.sizes.of(particles, at), tile.inverse_cell);
   weights.template set_affine<Shape>(position, tile.cell, tile.inverse_cell);

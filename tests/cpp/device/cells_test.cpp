@@ -76,7 +76,7 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   grid.update(particles, 0);
   Host host = with;
   device::Particles<Host, Dim> on_device(host, view_of(particles), count);
-  device::Cells<Host, Dim> cells(host, 0.7);
+  device::Cells<Host, Dim> cells(host, 0.7, {});
   cells.update(on_device.view(), on_device.by_id(), count);
   host.wait();
   EXPECT_TRUE(cells.blocks_changed());

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -14,6 +16,7 @@
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/error.hpp"
+#include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -98,6 +101,48 @@ std::string error_of(Simulation<Dim>& simulation) {
     return error.what();
   }
   return "";
+}
+
+inline const std::vector<std::string> on_columns{
+    "band.model=\"columns\"",         "band.column_step=0.004",      "band.thickness_change=conserving",
+    "body.right.material=\"frozen\"", "body.right.temperature=-0.5", "heat.advection_form=conservative",
+    "pressure.frozen=none",           "pressure.frozen_rows=sealed", "pressure.melt_contraction=true"};
+
+// Returns how often particles were copied back from the device before they were requested.
+template <int Dim>
+int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
+  Simulation<Dim> on_cpu(parameters, site), on_device(parameters, site);
+  int copies = 0;
+  on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
+  on_device.set_sorting_interval(32);
+  for (int k = 0; k < steps; ++k) {
+    on_cpu.step(on_cpu.next_step(10.0));
+    on_device.step(on_device.next_step(10.0));
+    EXPECT_EQ(on_device.time(), on_cpu.time());
+  }
+  const int copies_of_steps = copies;
+  EXPECT_EQ(on_device.removed().left, on_cpu.removed().left);
+  const auto expected = history_row(on_cpu), found = history_row(on_device);
+  EXPECT_EQ(copies, copies_of_steps) << "a row copies particles back";
+  EXPECT_EQ(on_device.step_limit().step, on_cpu.step_limit().step);  // of particles in their final positions
+  expect_the_same_particles(on_device, on_cpu);
+  EXPECT_EQ(found.size(), expected.size());
+  const auto unit_of = [](const std::string& name) { return name.substr(name.rfind('_') + 1); };
+  std::map<std::string, double> largest;
+  for (const auto& [name, value] : expected) {
+    largest[unit_of(name)] =
+        std::isnan(value) ? largest[unit_of(name)] : std::max(largest[unit_of(name)], std::abs(value));
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    // After particles have been added or removed, sums use their current positions, not those at the beginning of the
+    // step: they differ by round-off.
+    EXPECT_EQ(std::isnan(found[k].second), std::isnan(expected[k].second)) << found[k].first;
+    if (std::isnan(expected[k].second)) {
+      continue;
+    }
+    EXPECT_NEAR(found[k].second, expected[k].second, 1e-12 * largest.at(unit_of(found[k].first))) << found[k].first;
+  }
+  return copies_of_steps;
 }
 
 }  // namespace thawslide::sim

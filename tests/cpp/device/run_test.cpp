@@ -9,59 +9,17 @@
 #include "../support/small_terrain.hpp"
 #include "band/basal_segments.hpp"
 #include "run_on_device.hpp"
-#include "sim/history.hpp"
 #include "sim/run_records.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
 namespace {
 
-// Returns how often particles were copied back from the device before they were requested.
-template <int Dim>
-int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
-  Simulation<Dim> on_cpu(parameters, site), on_device(parameters, site);
-  int copies = 0;
-  on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
-  on_device.set_sorting_interval(32);
-  for (int k = 0; k < steps; ++k) {
-    on_cpu.step(on_cpu.next_step(10.0));
-    on_device.step(on_device.next_step(10.0));
-    EXPECT_EQ(on_device.time(), on_cpu.time());
-  }
-  const int copies_of_steps = copies;
-  EXPECT_EQ(on_device.removed().left, on_cpu.removed().left);
-  const auto expected = history_row(on_cpu), found = history_row(on_device);
-  EXPECT_EQ(copies, copies_of_steps) << "a row copies particles back";
-  expect_the_same_particles(on_device, on_cpu);
-  EXPECT_EQ(found.size(), expected.size());
-  const auto unit_of = [](const std::string& name) { return name.substr(name.rfind('_') + 1); };
-  std::map<std::string, double> largest;
-  for (const auto& [name, value] : expected) {
-    largest[unit_of(name)] =
-        std::isnan(value) ? largest[unit_of(name)] : std::max(largest[unit_of(name)], std::abs(value));
-  }
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    // After particles have been added or removed, sums use their current positions, not those at the beginning of the
-    // step: they differ by round-off.
-    EXPECT_EQ(std::isnan(found[k].second), std::isnan(expected[k].second)) << found[k].first;
-    if (std::isnan(expected[k].second)) {
-      continue;
-    }
-    EXPECT_NEAR(found[k].second, expected[k].second, 1e-12 * largest.at(unit_of(found[k].first))) << found[k].first;
-  }
-  return copies_of_steps;
-}
-
 TEST(DeviceRun, GivesTheParticlesOfTheCpu) {
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(), 75), 0);
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>({"time.stepping=\"adaptive\""}), 45), 0);
   EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(), 35), 0);
 }
-
-const std::vector<std::string> on_columns{
-    "band.model=\"columns\"",         "band.column_step=0.004",      "band.thickness_change=conserving",
-    "body.right.material=\"frozen\"", "body.right.temperature=-0.5", "heat.advection_form=conservative",
-    "pressure.frozen=none",           "pressure.frozen_rows=sealed", "pressure.melt_contraction=true"};
 
 // Shape functions, transfers, thermal conditions at a face in contact with the body, and heat alone.
 template <int Dim>
@@ -238,13 +196,16 @@ void expect_the_same_map(const MapKind& kind, const FlowMaps& found, const FlowM
   }
 }
 
-// Maps with cells as wide as those of the grid, with narrower and wider ones, and with band columns.
+// Maps with cells as wide as those of the grid, with narrower and wider ones, with band columns, and on cells that
+// follow the ground.
 TEST(DeviceRun, RecordsTheMapsOfTheCpu) {
-  const std::vector<std::vector<std::string>> choices{{"maps.arrival_thickness=0.1"},
-                                                      {"maps.cell=0.6"},
-                                                      {"maps.cell=2.7"},
-                                                      on_columns,
-                                                      {"grid.leaving=remove", "grid.max=[8.0,10.0,18.0]"}};
+  const std::vector<std::vector<std::string>> choices{
+      {"maps.arrival_thickness=0.1"},
+      {"maps.cell=0.6"},
+      {"maps.cell=2.7"},
+      on_columns,
+      {"grid.follows_terrain=true", "terrain.type=plane", "terrain.slope=10", "terrain.elevation=-0.2"},
+      {"grid.leaving=remove", "grid.max=[8.0,10.0,18.0]"}};
   for (const std::vector<std::string>& sets : choices) {
     SCOPED_TRACE(sets.front());
     const config::Case parameters = sliding_bodies<3>(sets);

@@ -1,0 +1,111 @@
+// Runs on cells that follow rough ground, on the CPU emulation of the GPU backend, compared with runs on the CPU.
+#include <cmath>
+#include <fstream>
+
+#include "../support/small_terrain.hpp"
+#include "band/basal_segments.hpp"
+#include "run_on_device.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+// Bumps a few cells long, below the bodies.
+double bumps(double x, double y) { return 0.4 * std::sin(0.7 * x) * std::cos(0.5 * y) - 0.41; }
+
+template <int Dim>
+config::Site site_of_bumps() {
+  config::Site site;
+  if (Dim == 3) {
+    site.ground = std::make_shared<const Raster>(raster(-10.0, -10.0, 0.5, 240, 64, bumps));
+  }
+  return site;
+}
+
+template <int Dim>
+config::Case on_bumps(const Sets& more) {
+  const Sets following = "grid.follows_terrain=true";
+  if (Dim == 3) {
+    return sliding_bodies<Dim>(following + on_dem() + more);
+  }
+  const auto name = folder_of_this_test() / "profile.csv";
+  std::string text = "distance_m,terrain_elevation_m\n";
+  for (int k = -20; k <= 220; ++k) {
+    text += fmt::format("{},{}\n", 0.5 * k, bumps(0.5 * k, 0.0));
+  }
+  std::ofstream(name) << text;
+  return sliding_bodies<Dim>(following + Sets("terrain.type=profile; terrain.file=" + name.string()) + more);
+}
+
+template <int Dim>
+int expect_the_same_run_on_bumps(const Sets& more, int steps) {
+  return expect_the_same_run<Dim>(on_bumps<Dim>(more), steps, site_of_bumps<Dim>());
+}
+
+TEST(DeviceFollowingCells, GiveTheParticlesOfTheCpu) {
+  const Sets plane = "grid.follows_terrain=true; terrain.type=plane; terrain.slope=10; terrain.elevation=-0.2";
+  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(plane), 45), 0);
+  EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(plane), 15), 0);
+  EXPECT_EQ(expect_the_same_run_on_bumps<2>({}, 75), 0);
+  EXPECT_EQ(expect_the_same_run_on_bumps<2>("time.stepping=adaptive", 45), 0);
+  EXPECT_EQ(expect_the_same_run_on_bumps<3>({}, 35), 0);
+}
+
+template <int Dim>
+void expect_the_same_with_every_choice(int steps) {
+  const std::vector<Sets> choices{
+      "mechanics.transfer=apic",
+      "mechanics.transfer=fmpm; mechanics.fmpm_interval=0.005",
+      "mechanics.effective_stress=true",
+      "pressure.frozen=none",  // computes the load of particles
+      "band.region=first_layer",
+      "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}",
+      "heat.enabled=false; pressure.enabled=false",
+      "basal.friction=voellmy; basal.friction_coefficient=0.2; basal.turbulent_friction=100"};
+  for (const Sets& sets : choices) {
+    SCOPED_TRACE(sets.front());
+    EXPECT_EQ(expect_the_same_run_on_bumps<Dim>(sets, steps), 0);
+  }
+}
+TEST(DeviceFollowingCells, SupportTheOptionsOfACase) {
+  expect_the_same_with_every_choice<2>(30);
+  expect_the_same_with_every_choice<3>(12);
+}
+
+template <int Dim>
+void expect_the_same_base(const Sets& more, int steps) {
+  constexpr double step = 0.0018;
+  const config::Case parameters = on_bumps<Dim>(more + fmt::format("time.step={}", step));
+  Simulation<Dim> on_cpu(parameters, site_of_bumps<Dim>()), on_device(parameters, site_of_bumps<Dim>());
+  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::forward));
+  for (int k = 0; k < steps; ++k) {
+    on_cpu.step(step);
+    on_device.step(step);
+    if (on_cpu.bed() != nullptr) {
+      ASSERT_EQ(on_device.bed()->state(), on_cpu.bed()->state()) << "after step " << k;
+    }
+    if (on_cpu.band_columns() != nullptr) {
+      ASSERT_EQ(on_device.band_columns()->state(), on_cpu.band_columns()->state()) << "after step " << k;
+    }
+  }
+  EXPECT_EQ(on_device.step_limit().step, on_cpu.step_limit().step);  // of particles in their final positions
+  expect_the_same_particles(on_device, on_cpu);
+  if (on_cpu.bed() != nullptr) {
+    EXPECT_GT(on_cpu.particle_count(), on_cpu.particles_at_start());
+  }
+}
+TEST(DeviceFollowingCells, KeepTheBandColumnsAndTheBedOfTheCpu) {
+  const Sets columns(on_columns);
+  expect_the_same_base<2>(columns, 60);
+  expect_the_same_base<3>(columns, 25);
+  expect_the_same_base<2>(loose_bed() + "bed.law=strength", 140);
+  expect_the_same_base<3>(loose_bed() + "bed.law=momentum", 50);
+  expect_the_same_base<2>(columns + loose_bed() + "bed.law=momentum", 110);
+}
+
+TEST(DeviceFollowingCells, LoseTheParticlesOfTheCpu) {
+  EXPECT_GT(expect_the_same_run_on_bumps<2>("grid.leaving=remove; grid.max=[8.0,18.0]", 40), 0);
+  EXPECT_GT(expect_the_same_run_on_bumps<3>("grid.leaving=remove; grid.max=[8.0,10.0,18.0]", 45), 0);
+}
+
+}  // namespace
+}  // namespace thawslide::sim
