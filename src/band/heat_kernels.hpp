@@ -6,6 +6,7 @@
 #include "band/physics.hpp"
 #include "base/linear.hpp"
 #include "base/select.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 #include "physics/pressurization.hpp"
@@ -48,8 +49,9 @@ struct HeatFlows {
         rates.flux[a][mpm::HeatRates::conduction] = flow * gradient[static_cast<int>(a)];
       }
       if (subgrid) {
+        const Value inverse_layer = mpm::inverse_layer<Dim>(particles, at, inverse_cell);
         in_cell = (state.value[0] - particles.temperature.load(at)) *
-                  physics::subgrid_diffusion_fraction(conductivity / tangent, inverse_cell * scaling, Dim, dt);
+                  physics::subgrid_diffusion_fraction(conductivity / tangent, inverse_layer * scaling, Dim, dt);
       }
     }
     particles.secant_capacity.store(at, tangent);

@@ -4,6 +4,7 @@
 #include "band/physics.hpp"
 #include "base/linear.hpp"
 #include "base/select.hpp"
+#include "mpm/mapping.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 #include "physics/clapeyron.hpp"
@@ -96,7 +97,8 @@ struct SeepageFlows {
       const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure);
       const Value diffusivity =
           scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(Real(1)), hydraulic);
-      const Value fraction = physics::subgrid_diffusion_fraction(diffusivity, Value(inverse_cell), Dim, dt);
+      const Value inverse_layer = mpm::inverse_layer<Dim>(particles, at, inverse_cell);
+      const Value fraction = physics::subgrid_diffusion_fraction(diffusivity, inverse_layer, Dim, dt);
       in_cell = select(flows, (state.value[0] - particles.pore_pressure.load(at)) * fraction, zero);
       const Value mobility = hydraulic / model.phases.water_unit_weight;
       const Value flow = select(flows, -volume * scaling * mobility * model.phases.water_bulk_modulus, zero);
