@@ -107,6 +107,24 @@ std::string closed_pores(const mpm::Particles<Dim>& particles) {
       closed, rounded_text(hottest, 3));
 }
 
+// Failure of water without an outlet in pores that compression has nearly closed, if any: nothing bounds its pressure.
+template <int Dim>
+std::string compressed_pores(const mpm::Particles<Dim>& particles) {
+  double smallest = 1.0;  // volume relative to that at t = 0
+  bool is_closed = false;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto ratio = static_cast<double>(particles.volume(p) / particles.initial_volume(p));
+    is_closed = is_closed || ratio < 1.0 - 0.9 * static_cast<double>(particles.initial_porosity(p));
+    smallest = std::min(smallest, ratio);
+  }
+  return is_closed ? fmt::format(
+                         "Likely cause: an impact has compressed a particle to {:.2f} of its volume, which "
+                         "closes its pores, and the pressure of their water has no bound. Set "
+                         "pressure.skeleton_compressibility to its default, 2e-9 1/Pa.",
+                         smallest)
+                   : "";
+}
+
 }  // namespace
 
 // Throws if no particle has that id.
@@ -230,7 +248,9 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
   }
   const bool pressurized = model_.band.heat && model_.band.pressure;
   if (invalid_.fault == mpm::Fault::state_not_finite && pressurized) {
-    const std::string closed = closed_pores(particles_);
+    const bool is_rigid = parameters_.pressure.skeleton_compressibility == 0.0;
+    const std::string compressed = is_rigid ? compressed_pores(particles_) : "";
+    const std::string closed = compressed.empty() ? closed_pores(particles_) : compressed;
     return closed.empty() ? too_long : closed;
   }
   const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);

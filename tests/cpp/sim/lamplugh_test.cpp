@@ -82,6 +82,15 @@ TEST(Fault, ClosedPoresAreNamedAsTheCause) {
   expect_in(message, "basal.heat_fraction");
 }
 
+TEST(Fault, PoresClosedByAnImpactAreNamedAsTheCause) {
+  Simulation<2> simulation(lamplugh());
+  simulation.particles().volume(17) = 0.64 * simulation.particles().initial_volume(17);
+  simulation.particles().velocity(simulation.particles().size() - 1, 0) = std::numeric_limits<double>::quiet_NaN();
+  const std::string message = failure_of(simulation, 2);
+  expect_in(message, "compressed a particle to 0.6");
+  expect_in(message, "Set pressure.skeleton_compressibility to its default");
+}
+
 TEST(Fault, PoresClosedByPressureAreNotAttributedToHeat) {
   Simulation<2> simulation(lamplugh());
   simulation.particles().porosity(17) = physics::smallest_porosity;
