@@ -48,7 +48,7 @@ TOPICS = {
     "Friction on terrain": (
         "rigid blocks on slopes, in bends and bowls; terminal velocity of Voellmy friction; invariance under rotation",
         "Incline AngleSweep Bonds Substrates Voellmy RestingBlock TiltedTerrain TurnedTerrain MirroredTerrain "
-        "SteepWall BendPressure CurvedTerrain Bowl HelicalChannel",
+        "BendPressure CurvedTerrain Bowl HelicalChannel",
     ),
     "Terrain from a DEM": (
         "planes, V and U channels, rough terrain, the edge of a DEM; volume of a release",
@@ -58,7 +58,7 @@ TOPICS = {
     "Cells that follow the ground": (
         "linear fields and rigid translation; slabs and spreading blocks on planes; channels, walls, a cliff; the "
         "default viscosity",
-        "FollowingCells FollowingPlane FollowingTerrain FollowingChannels DefaultViscosity",
+        "FollowingCells FollowingPlane FollowingBand FollowingTerrain FollowingChannels DefaultViscosity",
     ),
     "Spreading and collapse": (
         "thin-layer solutions of Ritter and of Savage and Hutter; laboratory experiments with bars and sand",

@@ -82,7 +82,7 @@ struct Grid {
   Point min{};  // domain
   Point max{};
   Policy leaving = Policy::stop;  // treatment of particles that leave the domain or the DEM
-  bool follows_terrain = false;   // the ground is on a layer of nodes
+  bool follows_terrain = true;    // the ground is on a layer of nodes
   double steepest = 65.0;         // degrees, slope to which columns of such cells are lowered
   // boundary types at x_min, x_max, y_min, y_max, z_min, z_max
   std::array<BoundaryKind, 6> boundary{};

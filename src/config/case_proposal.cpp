@@ -289,7 +289,7 @@ dimension = 3  # x is east, y is north, z is up
 cell = {cell}  # m; {across}
 {maps}min = {min}
 max = {max}
-{follows}leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
+leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
 
 [terrain]
 type = "dem"
@@ -310,8 +310,7 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
 )",
       fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
       fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("follows", follows_text()), fmt::arg("across", cell_comment(proposal)),
-      fmt::arg("maps", maps_comment(release_on_cells(proposal))),
+      fmt::arg("across", cell_comment(proposal)), fmt::arg("maps", maps_comment(release_on_cells(proposal))),
       fmt::arg("confirmed", input.largest_volume > 0.0
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
@@ -337,10 +336,6 @@ history_interval = {}
 )",
                      number_text(proposal.end), number_text(rest_speed), number_text(proposal.output_interval),
                      number_text(proposal.output_interval / 5.0));
-}
-
-std::string follows_text() {
-  return "follows_terrain = true  # the ground is on a layer of nodes: areas are right on larger cells\n";
 }
 
 std::string cell_comment(const Proposal& proposal) {

@@ -75,9 +75,6 @@ void propose_times(Proposal& proposal, double farthest);
 // and travels farther than that. Empty otherwise.
 [[nodiscard]] std::string edge_warning(const Proposal& proposal);
 
-// Line of [grid] that makes the cells follow the terrain.
-[[nodiscard]] std::string follows_text();
-
 // Number of particles across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);
 

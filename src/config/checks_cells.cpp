@@ -9,21 +9,23 @@
 namespace thawslide::config {
 
 void check_cells(const Case& checked, Reading& reading) {
-  if (!reading.are_valid({"grid.follows_terrain"}) || !checked.grid.follows_terrain) {
+  if (!reading.are_valid({"grid.follows_terrain"}) || !checked.grid.follows_terrain ||
+      checked.terrain.kind == TerrainKind::none) {
     return;
   }
   const auto v = static_cast<std::size_t>(checked.general.dimension - 1);
-  const auto is_prescribed = [](const HeatBoundary& side) { return side.kind != HeatBoundaryKind::insulated; };
+  const auto is_prescribed = [&](std::size_t side) {
+    return checked.heat.boundary[side].kind != HeatBoundaryKind::insulated;
+  };
+  const auto is_closed = [&](std::size_t side) { return checked.grid.boundary[side] != BoundaryKind::open; };
   const struct {
     bool is_requested;
     const char* what;
   } options[] = {
-      {checked.terrain.kind == TerrainKind::none, "terrain.type = \"none\""},
       {checked.terrain.form == TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
-      {checked.mechanics.shape_function != ShapeFunction::ugimp, "mechanics.shape_function other than \"ugimp\""},
-      {!checked.frames.empty(), "a [frame]"},
-      {is_prescribed(checked.heat.boundary[2 * v]) || is_prescribed(checked.heat.boundary[2 * v + 1]),
-       "heat.boundary at the bottom or top of the domain"},
+      {!checked.frames.empty() && checked.terrain.kind != TerrainKind::flat, "a [frame] on ground that is not flat"},
+      {is_closed(2 * v) || is_closed(2 * v + 1), "grid.boundary at the bottom or top of the domain"},
+      {is_prescribed(2 * v) || is_prescribed(2 * v + 1), "heat.boundary at the bottom or top of the domain"},
   };
   std::string found;
   for (const auto& option : options) {

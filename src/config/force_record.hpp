@@ -1,6 +1,6 @@
 // Force inverted from seismic waves, from the CSV file of report.force_record. It is read before a run, so that
 // mistakes in it are reported before the run starts. python/thawslide/force_record.py, which makes the comparison, has
-// the same rules (tests/cli/force_record_test.py).
+// the same rules (tests/cli/targets_test.py).
 #pragma once
 
 #include <filesystem>

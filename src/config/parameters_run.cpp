@@ -89,8 +89,8 @@ std::vector<Parameter<Grid>> grid_parameters() {
       parameter(&Grid::leaving, {.key = "leaving", .text = "treatment of particles that leave the domain or the DEM"}),
       parameter(&Grid::follows_terrain,
                 {.key = "follows_terrain",
-                 .text = "make the cells follow the terrain, so that the ground is on a layer of nodes everywhere; "
-                         "the vertical side of a cell stays grid.cell"}),
+                 .text = "the cells follow the terrain, so that the ground is on a layer of nodes everywhere; their "
+                         "vertical side stays grid.cell. false: level cells, which the ground cuts"}),
       parameter(&Grid::steepest,
                 {.key = "steepest",
                  .unit = "degrees",

@@ -62,7 +62,7 @@ dimension = 2  # x is the distance along the line, y is up; masses, forces and e
 cell = {cell}  # m; {across}
 min = [{min_x}, {min_y}]
 max = [{max_x}, {max_y}]
-{follows}leaving = "remove"  # what leaves the domain is removed, and its mass reported; "stop": it ends the run
+leaving = "remove"  # what leaves the domain is removed, and its mass reported; "stop": it ends the run
 
 [terrain]
 type = "profile"
@@ -74,11 +74,11 @@ shape = "surface"  # between terrain_elevation_m and surface_elevation_m of the 
 {state}
 {physics})",
       fmt::arg("title", quoted(title)), fmt::arg("time", time_text(proposal)),
-      fmt::arg("cell", number_text(proposal.cell)), fmt::arg("follows", follows_text()),
-      fmt::arg("across", cell_comment(proposal)), fmt::arg("min_x", number_text(proposal.min[0])),
-      fmt::arg("min_y", number_text(proposal.min[1])), fmt::arg("max_x", number_text(proposal.max[0])),
-      fmt::arg("max_y", number_text(proposal.max[1])), fmt::arg("profile", quoted(profile_file)),
-      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()));
+      fmt::arg("cell", number_text(proposal.cell)), fmt::arg("across", cell_comment(proposal)),
+      fmt::arg("min_x", number_text(proposal.min[0])), fmt::arg("min_y", number_text(proposal.min[1])),
+      fmt::arg("max_x", number_text(proposal.max[0])), fmt::arg("max_y", number_text(proposal.max[1])),
+      fmt::arg("profile", quoted(profile_file)), fmt::arg("state", body_state_text(proposal)),
+      fmt::arg("physics", physics_text()));
 }
 
 }  // namespace thawslide::config

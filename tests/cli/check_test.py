@@ -126,8 +126,9 @@ def test_the_proposed_cell_fits_the_domain(thawslide: Program, small_case: Path)
     line = (small_case / "case.toml").read_text().splitlines().index("cell = 1.0") + 1
     place = f"warning: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
     (note,) = (each for each in message.splitlines() if each.startswith(place))
-    assert note.endswith(" Set grid.cell to 0.5 m, at about 8 times the run time.")
-    assert "too few particles" not in thawslide.ok("check", small_case, *words, *sets(grid__cell=0.5))
+    assert note.endswith(" Set grid.cell to 0.4 m, at about 16 times the run time.")
+    finer = sets(grid__cell=0.4, time__step=0.00005)
+    assert "too few particles" not in thawslide.ok("check", small_case, *words, *finer)
 
 
 @pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system has no file whose first byte is an error")

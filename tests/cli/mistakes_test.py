@@ -43,7 +43,7 @@ def test_a_former_key_is_accepted_with_a_note(thawslide: Program, small_case: Pa
     file.write_text(SMALL_CASE.replace("elevation = 0.0", 'elevation = 0.0\ndescription = "rigid_points"'))
     line = file.read_text().splitlines().index('description = "rigid_points"') + 1
     note = f"note: {file}:{line}:15: key 'terrain.description' is called 'terrain.representation' now\n"
-    assert note in thawslide.ok("check", small_case)
+    assert note in thawslide.ok("check", small_case, *sets(grid__follows_terrain="false"))
 
 
 def test_lamplugh_in_a_domain_that_ends_inside_the_body_is_refused(thawslide: Program, tmp_path: Path) -> None:

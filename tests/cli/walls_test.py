@@ -1,4 +1,4 @@
-"""A block keeps its velocity until it reaches a wall, and a block behind a dyke rests."""
+"""On level cells, a block keeps its velocity until it reaches a wall, and a block behind a dyke rests."""
 
 from pathlib import Path
 
@@ -14,6 +14,7 @@ HALF_PARTICLE = CELL / 4.0  # m
 FOOT = {"thick57.5": 57.5, "thick59": 59.0, "thick61": 61.0, "thin59": 59.0, "thin61": 61.0}  # m
 RAMPS = {"ramp20": 20.0, "ramp30": 30.0, "ramp45": 45.0, "ramp60": 60.0, "ramp80": 80.0, "ramp89.99": 89.99}  # degrees
 RAMP_FOOT = DYKE_FOOT = 59.0  # m
+LEVEL = {"grid__follows_terrain": "false"}
 FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
 
 pytestmark = pytest.mark.skipif(not WALLS.is_dir(), reason=f"no folder {WALLS}")
@@ -22,7 +23,7 @@ pytestmark = pytest.mark.skipif(not WALLS.is_dir(), reason=f"no folder {WALLS}")
 def distance_at_loss(thawslide: Program, case: Path, run: Path, foot: float, **words: object) -> float:
     """Return the distance [m] to the foot of a wall at which 1 % of the velocity is lost; negative: beyond it."""
     end = (foot + CELL - FRONT) / SPEED
-    thawslide.ok("run", case, "--output", run, *sets(time__end=end, terrain__extend="true", **words))
+    thawslide.ok("run", case, "--output", run, *sets(time__end=end, terrain__extend="true", **LEVEL, **words))
     rows = history(run)
     has_changed = np.abs(rows["mean_velocity_m_s"] / SPEED - 1.0) > 0.01
     assert has_changed.any(), "the wall does not act"
@@ -46,7 +47,7 @@ def test_velocity_is_constant_until_the_block_reaches_a_ramp(thawslide: Program,
 
 def places_and_speeds(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[np.ndarray, ...]]:
     """Run a case; return x and the velocity along x of the particles of each body, for each snapshot."""
-    thawslide.ok("run", case, "--output", run, *sets(time__output_interval=0.1, **words))
+    thawslide.ok("run", case, "--output", run, *sets(time__output_interval=0.1, **LEVEL, **words))
     found: list[tuple[np.ndarray, ...]] = []
     for file in snapshot_files(run):
         data = datasets(file)
@@ -91,5 +92,6 @@ def test_block_behind_a_dyke_rests_at_an_impact(thawslide: Program, tmp_path: Pa
 def test_a_wall_thinner_than_a_cell_has_a_warning(thawslide: Program) -> None:
     """Bonded bodies push each other through a dyke of 2 m on cells of 5 m, and not on cells of 2 m."""
     warning = "the terrain has a wall thinner than a cell (5 m), 40 m high"
-    assert warning in thawslide.ok("check", WALLS / "case.toml")
-    assert "a wall thinner" not in thawslide.ok("check", WALLS / "case.toml", *sets(grid__cell=2, time__step=0.002))
+    assert warning in thawslide.ok("check", WALLS / "case.toml", *sets(**LEVEL))
+    finer = sets(grid__cell=2, time__step=0.002, **LEVEL)
+    assert "a wall thinner" not in thawslide.ok("check", WALLS / "case.toml", *finer)

@@ -113,13 +113,12 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
   const std::string bed =
       "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 0.0\ndepth_per_slip = 0.5\nmaterial = \"rock\"\n";
   const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
-  const std::string resting = changed({{"step = 0.001", "step = 0.001\nstop_at_rest = 0.1"}}),
-                    following = changed({{"[grid]", "[grid]\nfollows_terrain = true"}});
+  const std::string resting = changed({{"step = 0.001", "step = 0.001\nstop_at_rest = 0.1"}});
   write_next_to_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
   const std::string record = "[report]\nforce_record = \"force.csv\"\nforce_periods = [10.0, 200.0]\n";
   for (const std::string& text :
        {valid_case + record, valid_case + wall + ice + "x_min = 50.0\n", valid_case + noise, valid_case + bed,
-        valid_case + columns, valid_case + columns + growth, valid_case_on_dem, of_surface, resting, following,
+        valid_case + columns, valid_case + columns + growth, valid_case_on_dem, of_surface, resting,
         valid_case_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = without_marks(resolved_toml(found, "inputs"));
@@ -129,7 +128,6 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
         const std::string key = table->name + "." + entry.rule->key;
         const bool is_given = (key == "initial.noise" && text.find(noise) != std::string::npos) ||
                               (key == "band.growth" && text.find(growth) != std::string::npos) ||
-                              (key == "grid.follows_terrain" && text == following) ||
                               (key == "report.force_record" && text.find(record) != std::string::npos);
         if (entry.default_text.empty() || given.count(key) > 0 || is_given || names.empty()) {
           continue;

@@ -25,7 +25,7 @@ TEST(Set, ReplacesValuesOfEveryTypeByTheLastOne) {
        "material.rock.youngs_modulus=1e9", "mechanics.shape_function=quadratic", "heat.boundary.x_min=\"insulated\"",
        "case.title=Two words = one title", "heat.enabled=false", "grid.max=[200.0, 60]", "report.times=[0, 0.5, 2]",
        "band.thickness={time=[0.0, 1.0], value=[0.05, 0.5]}", "body.block.porosity={depth=[0, 10], value=[0.4, 0.2]}",
-       "heat.boundary.y_min={flux=60}", "band.model=scaled"});
+       "heat.boundary.x_max={flux=60}", "band.model=scaled"});
   EXPECT_EQ(found.time.end, 3.0);
   EXPECT_EQ(found.grid.cell, 2.5);
   EXPECT_EQ(found.bodies.at("block").temperature.at(7.0, 0.0), -3.5);
@@ -38,8 +38,8 @@ TEST(Set, ReplacesValuesOfEveryTypeByTheLastOne) {
   EXPECT_EQ(found.report.times, (std::vector<double>{0.0, 0.5, 2.0}));
   EXPECT_DOUBLE_EQ(found.band.thickness.at(0.5), 0.275);
   EXPECT_DOUBLE_EQ(found.bodies.at("block").porosity.at(5.0, 0.0), 0.3);
-  EXPECT_EQ(found.heat.boundary[2].kind, HeatBoundaryKind::flux);
-  EXPECT_EQ(found.heat.boundary[2].value, 60.0);
+  EXPECT_EQ(found.heat.boundary[1].kind, HeatBoundaryKind::flux);
+  EXPECT_EQ(found.heat.boundary[1].value, 60.0);
 }
 
 TEST(Set, AddsKeysToTheFile) {
@@ -159,15 +159,15 @@ TEST(BasedOn, AValueThatIsATableIsReplacedAsAWhole) {
       changed({{"thickness = 10.0",
                 "thickness = { attribute = \"depth\" }\nporosity = { depth = [0, 9], value = [0.3, 0.4] }"}},
               valid_case_on_dem) +
-          "[heat.boundary]\nz_min = { temperature = -2.0 }\nx_min = { flux = 1.0 }\n");
+          "[heat.boundary]\ny_min = { temperature = -2.0 }\nx_min = { flux = 1.0 }\n");
   write_next_to_the_case("maps.toml",
                          "[case]\nbased_on = \"case.toml\"\n[body.slide]\nthickness = { raster = \"map.tif\" }\n"
-                         "porosity = { x = [0, 9], value = [0.3, 0.4] }\n[heat.boundary]\nz_min = { flux = 0.06 }\n");
+                         "porosity = { x = [0, 9], value = [0.3, 0.4] }\n[heat.boundary]\ny_min = { flux = 0.06 }\n");
   const Case found = read("maps.toml");
   EXPECT_EQ(found.bodies.at("slide").thickness.from, MapValue::From::raster);
   EXPECT_EQ(found.bodies.at("slide").porosity.over, InitialField::Over::x);
   EXPECT_EQ(found.bodies.at("slide").material, "rock") << "the enclosing table is merged";
-  EXPECT_EQ(found.heat.boundary[4].kind, HeatBoundaryKind::flux);
+  EXPECT_EQ(found.heat.boundary[2].kind, HeatBoundaryKind::flux);
   EXPECT_EQ(found.heat.boundary[0].value, 1.0) << "and a table inside a table";
 }
 

@@ -15,7 +15,7 @@ inline const std::string every_key = one_key_per_line(R"(
 [case] title = "Every \"key\"" | width = 12.5 | gravity = 9.75 | gravity_tilt = -1.5
 [time] end = 4.5 | stepping = "adaptive" | step = 0.25 | safety = 0.5 | output_interval = 1.5 |
   history_interval = 0.125 | stop_at_rest = 0.0625 | rest_time = 5.0 | moved_distance = 0.5
-[grid] cell = 2.5 | min = [-5.0, -10.0] | max = [95.0, 40.0] | leaving = "remove"
+[grid] cell = 2.5 | min = [-5.0, -10.0] | max = [95.0, 40.0] | leaving = "remove" | follows_terrain = false
 [grid.boundary] x_min = "fixed" | x_max = "roller" | y_min = "roller" | y_max = "fixed"
 [guards] not_finite = "remove" | volume = "remove" | smallest_volume = 0.125 | largest_volume = 20.0 |
   removed_mass = 0.0625 | energy_growth = 0.5 | smallest_step = 0.25 | most_steps = 1000000.0
@@ -69,7 +69,7 @@ inline const std::string every_key = one_key_per_line(R"(
 inline const std::string rest_in_3d = one_key_per_line(R"(
 [case] dimension = 3
 [time] end = 4.5 | step = 0.25
-[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0]
+[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0] | follows_terrain = false
 [grid.boundary] z_min = "fixed" | z_max = "roller"
 [terrain] type = "plane" | slope = 5.0
 [material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25 | softening_slip = 0.75
@@ -86,7 +86,7 @@ inline const std::string rest_in_3d = one_key_per_line(R"(
 inline const std::string release_on_dem = one_key_per_line(R"(
 [case] dimension = 3
 [time] end = 4.5 | step = 0.25
-[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0]
+[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0] | follows_terrain = false
 [terrain] type = "dem" | file = "inputs/dem.tif" | crs = "EPSG:31287" | resample = 10.0 | smooth = 2.5
 [maps] cell = 20.0 | arrival_thickness = 0.5 | path = "inputs/path.geojson"
 [probe.gauge] line = "inputs/section.geojson"
@@ -113,7 +113,7 @@ inline std::string release_of_a_surface() {
                 "raster = \"inputs/codes.tif\"\ncode = 3\n"},
                {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
                 "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"},
-               {"[grid]", "[grid]\nfollows_terrain = true\nsteepest = 70.0"}},
+               {"follows_terrain = false", "follows_terrain = true\nsteepest = 70.0"}},
               release_on_dem);
   text.resize(text.find("[contact]"));  // refused with columns
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");

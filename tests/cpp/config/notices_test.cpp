@@ -69,7 +69,8 @@ TEST(Notices, NameTheNewKeywordsOfFormerOnes) {
 }
 
 TEST(Notices, NameTheNewKeyOfAFormerOne) {
-  const Case found = testing_support::case_from_text(changed({}), {"terrain.description=rigid_points"});
+  const Case found =
+      testing_support::case_from_text(changed({}), {"grid.follows_terrain=false", "terrain.description=rigid_points"});
   EXPECT_EQ(found.terrain.form, TerrainForm::rigid_points);
   EXPECT_EQ(notices_without_folder(found).at(0),
             "note: --set terrain.description=rigid_points: key 'terrain.description' is called "

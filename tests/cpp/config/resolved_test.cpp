@@ -106,7 +106,8 @@ TEST(Resolved, LamplughReadsBackToItself) {
 
 // Numbers without a short decimal representation, a text with quotation marks, three dimensions, every kind of table.
 TEST(Resolved, KeepsEveryBit) {
-  const std::string text = changed({{"[time]", "[case]\ndimension = 3\ntitle = 'a \"b\" \\ c'\n[time]"},
+  const std::string text = changed({{"[grid]", "[grid]\nfollows_terrain = false"},
+                                    {"[time]", "[case]\ndimension = 3\ntitle = 'a \"b\" \\ c'\n[time]"},
                                     {"step = 0.001", "step = 0.00030000000000000003"},
                                     {"min = [0.0, -10.0]", "min = [0.0, 0.0, -10.0]"},
                                     {"max = [100.0, 50.0]", "max = [100.0, 50.0, 50.0]"},

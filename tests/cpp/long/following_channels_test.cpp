@@ -5,12 +5,10 @@
 namespace thawslide::verification {
 namespace {
 
-const Sets following = "grid.follows_terrain=true; time.stepping=adaptive";
-
 // Apparent friction over that of the ground: an elastic fill, or one without cohesion.
 double friction(Channel channel, double azimuth, bool is_loose, double from = 1.0) {
   channel.azimuth = azimuth;
-  return friction_in_channel(channel, (is_loose ? loose_rock : elastic_rock(0.01)) + following, from, from + 2.0);
+  return friction_in_channel(channel, is_loose ? loose_rock : elastic_rock(0.01), from, from + 2.0);
 }
 
 TEST(FollowingChannels, HaveTheFrictionOfAWedge) {

@@ -107,7 +107,7 @@ TEST(Append, BalancesCloseAndResultsAreReproducibleWithOtherChoices) {
   expect_sound_runs<2>("mechanics.transfer=apic; time.stepping=adaptive");
   expect_sound_runs<2>("band.region=first_layer; band.thickness={time=[0.0,0.05],value=[0.1,0.2]}");
   expect_sound_runs<2>("mechanics.effective_stress=true; pressure.thickness_update=frozen; time.step=0.001");
-  expect_sound_runs<2>("grid.follows_terrain=true; time.stepping=adaptive");
+  expect_sound_runs<2>("time.stepping=adaptive");
 }
 
 // Particles added with the initial state of another particle equal that particle at t = 0.

@@ -75,8 +75,8 @@ TEST(Entrainment, MechanicalBudgetClosesInFirstOrderOfTheStep) {
     std::array<double, 3> left_over{};
     for (std::size_t k = 0; k < left_over.size(); ++k) {
       const int finer = 1 << k;
-      Simulation<2> simulation(slide_over_bed<2>({"bed.law=" + law, fmt::format("time.step={}", 0.001 / finer)}));
-      for (int step = 0; step < steps<2> * finer; ++step) {
+      Simulation<2> simulation(slide_over_bed<2>({"bed.law=" + law, fmt::format("time.step={}", 0.0005 / finer)}));
+      for (int step = 0; step < 2 * steps<2> * finer; ++step) {
         simulation.step(simulation.next_step(1.0));
         left_over[k] = std::max(left_over[k], work_residual(simulation));
       }

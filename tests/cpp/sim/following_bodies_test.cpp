@@ -180,7 +180,7 @@ std::unique_ptr<Simulation<3>> releases_on_uneven_ground() {
   const auto slide = release_on_dem({20.0, 0.002, 5.0, {-100.0, -100.0, -100.0}, {100.0, 100.0, 150.0}},
                                     "material.debris.youngs_modulus=5e7; material.debris.viscosity_time=0.005", 20.0);
   return std::make_unique<Simulation<3>>(
-      case_on_dem(slide, {"grid.follows_terrain=true; time.stepping=adaptive; body.slide.velocity=[15,0,-7.5]",
+      case_on_dem(slide, {"time.stepping=adaptive; body.slide.velocity=[15,0,-7.5]",
                           "body.front.material=debris; body.front.shape=release; body.front.temperature=-1",
                           "body.front.porosity=0.3; body.front.particles_per_axis=3",
                           "body.front.thickness={raster='" + (folder_of_this_test() / "thickness.tif").string() + "'}",

@@ -52,7 +52,7 @@ std::unique_ptr<Simulation<3>> slide_in_gully(const Sets& sets = {}) {
   const Raster thickness = thickness_between(-half, half, 5.0, [](double x, double y) {
     return std::max(0.0, 30.0 * (1.0 - std::pow((x + 50.0) / 60.0, 2) - std::pow(y / 60.0, 2)));
   });
-  return std::make_unique<Simulation<3>>(case_on_dem(slide, "grid.follows_terrain=true; time.stepping=adaptive" + sets),
+  return std::make_unique<Simulation<3>>(case_on_dem(slide, "time.stepping=adaptive" + sets),
                                          site_of(ground, thickness));
 }
 
@@ -113,7 +113,7 @@ TEST(FollowingCells, StackedBodiesStandOnTheGroundOfTheCells) {
   const std::string file = (folder_of_this_test() / "profile.csv").string();
   std::ofstream(file) << "distance_m,terrain_elevation_m\n-300,-300\n0,0\n300,-300\n";
   const Simulation<2> made(
-      base_case("block", Sets("time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.cell=10; "
+      base_case("block", Sets("time.step=; time.stepping=adaptive; grid.cell=10; "
                               "grid.min=[-200,-250]; grid.max=[200,150]; terrain.type=profile; "
                               "body.block.shape=polygon; body.block.min=; body.block.max=; "
                               "body.block.vertices=[[-50,-50],[0,0],[50,-50],[50,-20],[0,30],[-50,-20]]; "

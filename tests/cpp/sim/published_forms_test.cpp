@@ -240,7 +240,7 @@ Variant tilted_slab(double slope, double elevation) {
 
 // Heat input per area over the capacity and the mean temperature rise of the band, in units of e.
 double effective_thickness(const Variant& slab_on_plane, const std::string& cut_cells) {
-  Simulation<2> simulation(paper_case(slab_on_plane, {"band.cut_cells=" + cut_cells}));
+  Simulation<2> simulation(paper_case(slab_on_plane, "grid.follows_terrain=false; band.cut_cells=" + cut_cells));
   run_until(simulation, 0.2);
   const HistoryRow row = history_row(simulation);
   const double heat = value_of(row, "friction_heat_J");

@@ -56,7 +56,7 @@ void expect_bits_of_one_width(const Sets& sets) {
 TEST(SectionWidth, OfAUniformTableIsBitwiseIdenticalToANumber) {
   expect_bits_of_one_width({});
   expect_bits_of_one_width("band.model=scaled; pressure.frozen_rows=vented");
-  expect_bits_of_one_width("mechanics.transfer=apic; terrain.representation=rigid_points");
+  expect_bits_of_one_width("mechanics.transfer=apic; grid.follows_terrain=false; terrain.representation=rigid_points");
 }
 
 // Elastic material under its weight between sides of the domain, in a section that widens, narrows and widens again.

@@ -84,7 +84,7 @@ TEST(UnresolvedTerrain, NamesADykeOfAProfile) {
   const std::string file = (folder_of_this_test() / "profile.csv").string();
   std::ofstream(file) << "distance_m,terrain_elevation_m\n-100,0\n70,0\n72.5,8\n75,0\n400,0\n";
   const Simulation<2> simulation(
-      base_case("block", Sets("time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.cell=5; "
+      base_case("block", Sets("time.step=; time.stepping=adaptive; grid.cell=5; "
                               "grid.min=[-90,-50]; grid.max=[350,80]; terrain.type=profile; body.block.min=[10,0]; "
                               "body.block.max=[50,20]; terrain.file=" +
                               file)));

@@ -283,8 +283,9 @@ Swing swing(const Sets& sets) {
 TEST(VelocityFilter, DampsAWaveByItsEigenvalue) {
   verification::Record record(
       "A bar whose velocities are filtered",
-      "The first mode of an elastic bar free at both ends, four cells long, its velocities filtered 6 times a period "
-      "(mechanics.transfer = \"fmpm\"): the matrix that takes it over an interval, fitted to 40 of these.",
+      "The first mode of an elastic bar free at both ends, four cells long. Its velocities are filtered 6 times a "
+      "period "
+      "(mechanics.transfer = \"fmpm\"). The matrix that takes it over an interval is fitted to 40 intervals.",
       "determinant f = 1 - (1 - l)^m with l = 5/8 + 3/8 cos(k h); trace (1 + f) cos(a), a of FLIP",
       "eigenvalue of the sums over particles; Hammerquist and Nairn 2017 for the filter");
   const Swing flip = swing({});

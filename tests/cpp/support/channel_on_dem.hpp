@@ -72,7 +72,8 @@ inline double friction_in_channel(
   });
   const Variant slide = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
                                        material, channel_friction);
-  sim::Simulation<3> simulation(case_on_dem(slide), site_of(treat(ground), thickness));
+  sim::Simulation<3> simulation(case_on_dem(slide, "time.stepping=adaptive; grid.steepest=70"),
+                                site_of(treat(ground), thickness));
   const Position down(along[0] * cosine, along[1] * cosine, -sine);
   run_until(simulation, from);
   const double first = CentreOfMass(simulation).velocity.dot(down), began = simulation.time();

@@ -7,6 +7,7 @@
 
 #include "base/portability.hpp"
 #include "base_cases.hpp"
+#include "mass_spread.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::testing_support {
@@ -38,7 +39,7 @@ inline config::Case body_on_plane(const Incline& plane, double cell, const std::
   const double fall = std::tan(plane.angle()) * margin;
   const auto rounded = [&](double number) { return cell * std::round(number / cell); };
   const Sets on_plane{
-      "time.end=20; time.step=; time.stepping=adaptive; grid.follows_terrain=true; terrain.type=plane",
+      "time.end=20; time.step=; time.stepping=adaptive; terrain.type=plane",
       "terrain.elevation=0; material.rock.law=mohr_coulomb; material.rock.youngs_modulus=5e7",
       "material.rock.friction_angle=35; material.rock.cohesion=0; material.rock.viscosity_time=",
       "body.block.shape=polygon; body.block.min=; body.block.max=; body.block.temperature=-5; body.block.porosity=0.3",
@@ -58,6 +59,18 @@ inline double volume_growth(const sim::Simulation<2>& simulation) {
     initial_volume += particles.initial_volume(p);
   }
   return volume / initial_volume - 1.0;
+}
+
+// Block of 200 m x 40 m on a plane, with gravity normal to it.
+struct Spread {
+  double along, growth;  // standard deviation of the mass along the plane [m], relative growth of the volume
+};
+inline Spread spread_of_block(const Incline& plane, double cell) {
+  sim::Simulation<2> simulation(body_on_plane(
+      plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
+      {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.rock.viscosity_time=0.004"}));
+  run_until(simulation, 16.0);
+  return {mass_spread(simulation, plane.down()), volume_growth(simulation)};
 }
 
 }  // namespace thawslide::testing_support

@@ -10,8 +10,9 @@ TEST(VChannelOnDem, HoldsAsTheWedgeSays) {
   Record record = make_record("V channels on a DEM");
   expect_wedge(record, 120.0, 8.0, {45.0, 0.0});
   expect_wedge(record, 90.0, 8.0, {22.5, 0.0});
-  expect_wedge(record, 60.0, 4.0, {0.0, 2.5});
-  expect_wedge(record, 60.0, 4.0, {22.5, 0.0});
+  expect_wedge(record, 60.0, 8.0, {22.5, 0.0});
+  expect_wedge(record, 60.0, 8.0, {0.0, 2.5}, 0.05);
+  record.explain("In a narrow V whose thalweg is halfway between two columns of nodes, friction is lower.");
 }
 
 TEST(VChannelOnDem, HoldsALooseFillToo) {

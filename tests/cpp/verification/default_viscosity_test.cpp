@@ -47,9 +47,10 @@ class SlidingBlock {
 TEST(DefaultViscosity, DampsTheNoiseOfSlidingBlocks) {
   Record record(
       "Default viscosity: noise of blocks that slide down a plane",
-      "A block of 200 m x 60 m slides down a plane of 30 degrees for 20 s, at a friction angle of 20 degrees, "
-      "on cells that follow the ground. Internal friction is 35 degrees. Without viscosity, noise opens gaps, "
-      "and the volume of a block without cohesion grows.",
+      "A block of 200 m x 60 m slides down a plane of 30 degrees for 20 s, at a friction angle of 20 degrees. "
+      "Internal friction is 35 degrees. Without viscosity, noise opens gaps, and the volume of a block without "
+      "cohesion "
+      "grows.",
       "without noise, the volume remains and a block with cohesion moves as a rigid body", "refinement of the cell");
   for (const auto& [cell, growth] : {std::pair{20.0, 0.07}, {10.0, 0.04}, {5.0, 0.025}}) {
     const std::string cells = fmt::format(", cells of {} m", cell);

@@ -253,7 +253,7 @@ TEST(FollowingCells, RigidTranslationIsKept) {
     }
   }
   const std::string flying =
-      "time.end=10; time.step=0.004; grid.cell=10; grid.follows_terrain=true; grid.min=[-100,-50]; grid.max=[600,150]; "
+      "time.end=10; time.step=0.004; grid.cell=10; grid.min=[-100,-50]; grid.max=[600,150]; "
       "terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.poisson_ratio=0.2; "
       "body.block.min=[0,60]; body.block.max=[60,100]; body.block.velocity=[40,0]; basal.friction=constant; "
       "basal.friction_angle=0; terrain.file=";

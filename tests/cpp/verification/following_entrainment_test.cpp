@@ -88,7 +88,7 @@ TEST(FollowingEntrainment, TheRateOnUnevenGroundIsThatOfTheLaw) {
       -half, half, 1.25, [](double x, double y) { return std::abs(x) < 40.0 && std::abs(y) < 40.0 ? 15.0 : 0.0; });
   constexpr double depth_per_slip = 0.01;
   Simulation<3> simulation(
-      case_on_dem(slide, {"grid.follows_terrain=true; time.stepping=adaptive; body.slide.velocity=[6,0,-2.4]",
+      case_on_dem(slide, {"time.stepping=adaptive; body.slide.velocity=[6,0,-2.4]",
                           "bed.law=strength; bed.material=debris; bed.porosity=0.9; bed.strength=0; bed.depth=3",
                           fmt::format("bed.depth_per_slip={}", depth_per_slip)}),
       site_of(raster_between(-half, half, 2.5, uneven), thickness));

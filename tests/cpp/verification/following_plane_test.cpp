@@ -3,23 +3,10 @@
 
 #include <memory>
 
-#include "../support/mass_spread.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-// Block of 200 m x 40 m on a plane, with gravity normal to it.
-struct Spread {
-  double along, growth;  // standard deviation of the mass along the plane [m], relative growth of the volume
-};
-Spread spread_of_block(const Incline& plane, double cell) {
-  Simulation<2> simulation(body_on_plane(
-      plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
-      {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.rock.viscosity_time=0.004"}));
-  run_until(simulation, 16.0);
-  return {mass_spread(simulation, plane.down()), volume_growth(simulation)};
-}
 
 TEST(FollowingPlane, BlockSpreadsAsOnAGridLine) {
   Record record(

@@ -1,29 +1,12 @@
-// Cells that follow curved ground: channels, walls, a cliff and a pool.
+// Cells that follow the ground: walls and a cliff.
 #include <fstream>
+#include <memory>
+#include <random>
 
-#include "../support/channel_on_dem.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-const Sets following = "grid.follows_terrain=true; time.stepping=adaptive";
-
-TEST(FollowingTerrain, ChannelsHaveTheFrictionOfAWedge) {
-  Record record("Cells that follow the ground: V channels",
-                "An elastic fill slides in a channel of V section that falls by 35 degrees. The friction angle of the "
-                "ground is 15 degrees, cells are 5 m wide, and points of the DEM are 1.25 m apart. Mean from 1 to 3 s.",
-                "apparent friction over that of the ground = 1/sin(a), a half the opening angle", "wedge in a groove");
-  for (const auto& [opening, azimuth] : {std::pair(120.0, 22.5), std::pair(90.0, 0.0), std::pair(90.0, 33.0)}) {
-    Channel channel = v_channel(0.5 * opening, 8.0 * channel_cell);
-    channel.azimuth = azimuth;
-    const double found = friction_in_channel(channel, elastic_rock(0.01) + following, 1.0, 3.0);
-    record.expect_near(
-        fmt::format("apparent friction over exact, opening {} degrees, thalweg at {} degrees to the grid", opening,
-                    azimuth),
-        found * std::sin(0.5 * opening * pi / 180.0), 1.0, 0.02);
-  }
-}
 
 // Profile of the running test, from points of x and height.
 void write_profile(const std::vector<std::pair<double, double>>& points) {
@@ -37,7 +20,7 @@ void write_profile(const std::vector<std::pair<double, double>>& points) {
 // Elastic block of 40 m x 20 m on frictionless ground, given by write_profile; its front is at x = 50 m.
 config::Case sliding_block(const Sets& sets) {
   const std::string on_profile =
-      "time.end=4; time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.min=[-90,-300]; "
+      "time.end=4; time.step=; time.stepping=adaptive; grid.min=[-90,-300]; "
       "grid.max=[350,80]; terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.viscosity_time=0.01; "
       "body.block.min=[10,0]; body.block.max=[50,20]; body.block.velocity=[20,0]; basal.friction_angle=0; "
       "terrain.file=";
@@ -89,6 +72,68 @@ TEST(FollowingTerrain, BlocksKeepTheirVelocityUpToAWall) {
       "before the foot of a wall.");
 }
 
+// A dam from `begin` [m], two columns wide and 30 m high. Greatest height of the columns and, after 4 s, place of the
+// foremost particle of a block that slides towards it [m].
+std::pair<double, double> crest_and_front(double begin) {
+  constexpr double cell = 5.0, height = 30.0;
+  const double end = begin + 2.0 * cell;
+  write_profile({{-100.0, 0.0}, {begin, 0.0}, {begin + 0.01, height}, {end - 0.01, height}, {end, 0.0}, {400.0, 0.0}});
+  Simulation<2> simulation(sliding_block({"grid.steepest=85"}));
+  run_until(simulation, 4.0);
+  const auto& model = simulation.model();
+  double crest = 0.0, front = 0.0;
+  for (double x = begin - cell; x <= end + cell; x += 0.25 * cell) {
+    const Vector<double, 1> place(x - model.origin[0]);
+    crest = std::max(crest, model.following->height(place, 0) + model.origin[1]);
+  }
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    front = std::max(front, model.origin[0] + simulation.particles().position(p, 0));
+  }
+  return {crest, front};
+}
+
+TEST(FollowingTerrain, ADamTwoColumnsWideHoldsABlock) {
+  Record record(
+      "Cells that follow the ground: dam",
+      "An elastic block, 20 m high, slides without friction at 20 m/s towards a dam two columns wide and 30 m "
+      "high; cells of 5 m.",
+      "the columns keep 90 % of the height, and the block does not pass the crest", "terrain");
+  for (const auto& [begin, allowed] : {std::pair(60.0, 0.1), std::pair(62.5, 0.13)}) {
+    const auto [crest, front] = crest_and_front(begin);
+    const std::string where = begin == 60.0 ? ", middle on a column" : ", middle between columns";
+    record.expect_near("height of the columns over that of the dam" + where, crest / 30.0, 1.0, allowed);
+    record.expect_near("cells by which the block has passed the crest after 4 s" + where,
+                       std::max(0.0, (front - begin - 5.0) / 5.0), 0.0, 1e-9);
+  }
+  record.explain("The mean of a dam with upright faces over two columns next to its middle is 7/8 of its height.");
+}
+
+TEST(FollowingTerrain, ABlockRestsBehindADyke) {
+  Record record("Cells that follow the ground: dyke between two blocks",
+                "An elastic block of 10 m x 10 m slides at 20 m/s against a dyke 2 m wide and 40 m high. Another block "
+                "is 1 m behind the "
+                "dyke, on ground with a friction angle of 30 degrees; cells of 1 m.",
+                "the block behind the dyke is at rest, and the other remains before it", "contact through a dyke");
+  write_profile({{-100.0, 0.0}, {59.0, 0.0}, {59.01, 40.0}, {61.0, 40.0}, {61.01, 0.0}, {400.0, 0.0}});
+  Simulation<2> simulation(sliding_block(
+      "grid.cell=1; grid.steepest=85; basal.friction_angle=30; material.rock.viscosity_time=0.001; "
+      "body.block.min=[40.0,0.0]; body.block.max=[50.0,10.0]; body.behind.material=rock; body.behind.min=[62.0,0.0]; "
+      "body.behind.max=[72.0,10.0]; body.behind.temperature=-5; "
+      "body.behind.porosity=0.3"));
+  run_until(simulation, 1.2);
+  const auto& particles = simulation.particles();
+  double greatest = 0.0, front = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (simulation.model().body_names[static_cast<std::size_t>(particles.body(p))] == "behind") {
+      greatest = std::max(greatest, particles.displacement.get<Vector<double, 2>>(p).norm());
+    } else {
+      front = std::max(front, simulation.model().origin[0] + particles.position(p, 0));
+    }
+  }
+  record.expect_near("greatest displacement behind the dyke after 1.2 s [m]", greatest, 0.0, 0.02);
+  EXPECT_LT(front, 60.0);
+}
+
 TEST(FollowingTerrain, ABlockFliesOverACliff) {
   Record record("Cells that follow the ground: fall over a cliff",
                 "An elastic block leaves a level plateau at 20 m/s over a cliff of 80 degrees, 200 m high.",
@@ -113,6 +158,103 @@ TEST(FollowingTerrain, ABlockFliesOverACliff) {
                      (last.position - first.position - passed * first.velocity - fall).norm(), 0.0, 1.0);
   const double kinetic = value_of(sim::history_row(simulation), "kinetic_J");
   record.expect_near("change of energy over the kinetic energy", (energy() - energy_before) / kinetic, 0.0, 0.01);
+}
+
+// Pool without cohesion, 200 m long and up to 40 m deep, on ground given by write_profile from x = 0 to 200 m. The
+// friction angle [degrees] is that inside and at the base. The nearly incompressible material is in equilibrium.
+class Pool {
+ public:
+  static constexpr double cell = 10.0, surface = 40.0, length = 200.0;  // [m]
+
+  Pool(const std::vector<std::pair<double, double>>& ground, double friction_angle, const Sets& sets) {
+    write_profile(ground);
+    std::string vertices;
+    for (const auto& [x, z] : ground) {
+      vertices += x >= 0.0 && x <= length && z < surface ? fmt::format("[{},{}],", x, z) : "";
+    }
+    const Sets pool =
+        "time.end=20; time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.cell=10; grid.min=[0,-50]; "
+        "grid.max=[200,100]; grid.boundary.x_min=roller; grid.boundary.x_max=roller; terrain.type=profile; "
+        "material.rock.law=mohr_coulomb; material.rock.youngs_modulus=5e7; material.rock.poisson_ratio=0.49; "
+        "material.rock.viscosity_time=; material.rock.cohesion=0; body.block.shape=polygon; body.block.min=; "
+        "body.block.max=";
+    simulation_ = std::make_unique<Simulation<2>>(base_case(
+        "block", pool + sets +
+                     Sets(fmt::format("terrain.file={}; body.block.vertices=[{}[200,40],[0,40]]",
+                                      (folder_of_this_test() / "profile.csv").string(), vertices)) +
+                     Sets(fmt::format("material.rock.friction_angle={0}; basal.friction_angle={0}", friction_angle))));
+  }
+
+  // Greatest mean speed of the particles until `time` [s].
+  double speed_until(double time) {
+    double greatest = 0.0;
+    while (simulation_->time() < time - 1e-9) {
+      simulation_->step(simulation_->next_step(time));
+      const auto& particles = simulation_->particles();
+      greatest = std::max(greatest, mass_mean(*simulation_, [&](auto p) {
+                            return std::hypot(particles.velocity(p, 0), particles.velocity(p, 1));
+                          }));
+    }
+    return greatest;
+  }
+
+  // Differences of the pressure of nodes from rho g h, where the pool is deeper than half a cell, over rho g 40 m.
+  [[nodiscard]] std::vector<double> pressure_errors() const {
+    std::vector<double> errors;
+    const auto& nodes = simulation_->nodes();
+    const auto& particles = simulation_->particles();
+    const double density = particles.mass(0) / particles.initial_volume(0);
+    for (std::size_t b = 0; b < simulation_->grid().blocks().size(); ++b) {
+      for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
+        const auto& contact = nodes.contact(b, k);
+        const Vector<double, 1> x(mpm::node_position(simulation_->grid(), b, k)[0]);
+        const auto& model = simulation_->model();
+        const double depth = surface - model.origin[1] - model.following->height(x, 0);
+        if (contact[mpm::Contact::touching] > 0.0 && x[0] >= 0.0 && x[0] <= length && depth > 0.5 * cell) {
+          errors.push_back(contact[mpm::Contact::normal_force] / contact[mpm::Contact::area] /
+                               (density * gravity * surface) -
+                           depth / surface);
+        }
+      }
+    }
+    return errors;
+  }
+
+ private:
+  std::unique_ptr<Simulation<2>> simulation_;
+};
+
+TEST(FollowingTerrain, APoolRemainsAtRest) {
+  Record record("Cells that follow the ground: a pool with a level surface",
+                "A pool without cohesion, up to 40 m deep, rests on noise of 1 m rms on points 5 m apart, or in a V of "
+                "slopes of 0.4; cells of 10 m. Particles have the friction angle of the ground.",
+                "no motion; pressure rho g h", "hydrostatics");
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.1 * Pool::cell);
+  std::vector<std::pair<double, double>> rough;
+  for (double x = -50.0; x <= 250.0; x += 0.5 * Pool::cell) {
+    rough.emplace_back(x, noise(random));
+  }
+  const std::vector<std::pair<double, double>> valley{
+      {-100.0, 80.0}, {0.0, 40.0}, {100.0, 0.0}, {200.0, 40.0}, {300.0, 80.0}};
+  for (const auto& [friction_angle, transfer] :
+       {std::pair(0.0, "apic"), std::pair(20.0, "apic"), std::pair(20.0, "flip")}) {
+    for (const auto& ground : {rough, valley}) {
+      Pool pool(ground, friction_angle,
+                fmt::format("mechanics.transfer={}; {}", transfer,
+                            transfer == std::string("flip") ? "material.rock.viscosity_number=0.3" : ""));
+      const std::string where =
+          fmt::format(", {}, {} degrees, {}", ground == rough ? "noise" : "V", friction_angle, transfer);
+      const double first = pool.speed_until(15.0), last = pool.speed_until(20.0);
+      record.expect_near("mean speed after 15 s, greatest [m/s]" + where, last, 0.0, 0.01);
+      record.expect_near("rms error of the pressure of nodes over the greatest" + where,
+                         root_mean_square(pool.pressure_errors()), 0.0, 0.05);
+      EXPECT_LE(last, first) << where;
+    }
+  }
+  record.explain(
+      "APIC and FLIP in turn, FLIP with a viscosity number of 0.3. With FLIP alone, a pool at rest flutters on level "
+      "ground too, on cells of either kind.");
 }
 
 }  // namespace

@@ -136,25 +136,20 @@ double oblique_cliff(double x, double y) {
   return -0.5 * x + 0.008 * y * y + ridges + gully - 12.0 * down_the_cliff;
 }
 
-// Maximum depth of the centre of any particle below the ground in any step [m]: the distance from the nearest point of
-// the ground.
+// Maximum depth of the centre of any particle below the ground of the cells in any step [m], normal to the ground.
 double deepest_in_any_step(const Height& height, double end, double& centre_x) {
   const Raster ground = raster_between(Place(-70.0, -50.0), Place(130.0, 50.0), 2.5, height);
-  const terrain::HeightField surface(ground);
   Simulation<3> simulation(case_on_dem(base_text("release"), slide + "grid.min=[-60,-40,-120]"),
                            site_of(ground, heap()));
-  const Position origin = simulation.model().origin;
+  const auto& surface = *simulation.model().ground;
   double deepest = 0.0;
   while (simulation.time() < end) {
     simulation.step(simulation.next_step(end));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Position position = particles.position.get<Position>(p) + origin;
-      const double below = surface.height(position.head<2>()) - position[2];
-      if (below > 0.0) {
-        const auto foot = surface.nearest(position, below);
-        deepest = std::max(deepest, foot ? (*foot - position).norm() : below);
-      }
+      const Position position = particles.position.get<Position>(p);
+      const Place place = position.head<2>();
+      deepest = std::max(deepest, (surface.height(place) - position[2]) * surface.slope_cosine(place, 2.5));
     }
   }
   centre_x = CentreOfMass(simulation).position[0];

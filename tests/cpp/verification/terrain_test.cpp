@@ -16,7 +16,7 @@ config::Case slab_on_plane(double ground) {
   };
   return published_case(
       "block", {fmt::format("case.gravity_tilt={}; terrain.type=plane; terrain.slope={}", 35.0 - ground, ground),
-                "time.end=2; time.step=0.0018; grid.cell=2.5; grid.min=[-20,-100]; grid.max=[150,50]",
+                "time.end=2; time.step=; time.stepping=adaptive; grid.cell=2.5; grid.min=[-20,-100]; grid.max=[150,50]",
                 "material.rock.viscosity_time=0.01; body.block.shape=polygon; mechanics.slope_shear=true",
                 fmt::format("body.block.vertices=[{}, {}, {}, {}]", corner(0.0, 0.0), corner(60.0, 0.0),
                             corner(60.0, 20.0), corner(0.0, 20.0)),
@@ -88,7 +88,7 @@ TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
                 "w^2 = A sin phi + B cos phi + K exp(a phi)", "pendulum with Coulomb friction");
   for (const double cell : {5.0, 2.5}) {
     write_arc();
-    const Sets sets{fmt::format("grid.cell={}; time.step={}", cell, 7e-4 * cell),
+    const Sets sets{fmt::format("grid.cell={}; time.step=; time.stepping=adaptive", cell),
                     "mechanisms.pressurization=false; heat.enabled=false"};
     Simulation<2> simulation(published_case("profile", sets));
     const Turning start(simulation);

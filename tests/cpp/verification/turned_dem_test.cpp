@@ -10,7 +10,7 @@ constexpr double cell = 2.5;
 constexpr double seconds = 14.0;  // until a slide is at rest
 
 const Sets debris{fmt::format("time.end={}; time.step=0.003; grid.cell={}; basal.friction_angle=18", seconds, cell),
-                  "grid.min=[-50,-50,-120]; grid.max=[150,50,60]"};
+                  "grid.min=[-50,-50,-120]; grid.max=[150,50,60]; mechanics.transfer=apic"};
 
 // Mass-weighted position along a direction behind which 99.5 % of the mass of particles is located [m, absolute].
 double front_along(const Simulation<3>& simulation, const Place& direction) {
