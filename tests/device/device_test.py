@@ -74,7 +74,7 @@ REGISTERS_OF_STEP = {
     "update_heat_as_published, PowerLawCurve": (54, 54),  # 47, 47
     "new_heat_masses, PowerLawCurve": (44, 44),  # 38, 38
     "pass, RedistributeUnreachedHeat": (40, 40),  # 32, 32
-    "seepage": (50, 46),  # 43, 40
+    "seepage": (50, 54),  # at most 50, 47: the slope of the ground scales diffusion
     "seeping_water": (24, 24),  # 16, 16
     "box_in_columns": (36, 46),  # 30, 40
     "column": (34, 34),  # 28, 28
