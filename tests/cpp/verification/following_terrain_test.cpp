@@ -1,4 +1,4 @@
-// Cells that follow the ground: walls and a cliff.
+// Cells that follow the ground: walls, a cliff, a dam, a dyke and a pool.
 #include <fstream>
 #include <memory>
 #include <random>
@@ -111,8 +111,7 @@ TEST(FollowingTerrain, ADamTwoColumnsWideHoldsABlock) {
 TEST(FollowingTerrain, ABlockRestsBehindADyke) {
   Record record("Cells that follow the ground: dyke between two blocks",
                 "An elastic block of 10 m x 10 m slides at 20 m/s against a dyke 2 m wide and 40 m high. Another block "
-                "is 1 m behind the "
-                "dyke, on ground with a friction angle of 30 degrees; cells of 1 m.",
+                "is 1 m behind the dyke, on ground with a friction angle of 30 degrees; cells of 1 m.",
                 "the block behind the dyke is at rest, and the other remains before it", "contact through a dyke");
   write_profile({{-100.0, 0.0}, {59.0, 0.0}, {59.01, 40.0}, {61.0, 40.0}, {61.01, 0.0}, {400.0, 0.0}});
   Simulation<2> simulation(sliding_block(
@@ -173,7 +172,7 @@ class Pool {
       vertices += x >= 0.0 && x <= length && z < surface ? fmt::format("[{},{}],", x, z) : "";
     }
     const Sets pool =
-        "time.end=20; time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.cell=10; grid.min=[0,-50]; "
+        "time.end=20; time.step=; time.stepping=adaptive; grid.cell=10; grid.min=[0,-50]; "
         "grid.max=[200,100]; grid.boundary.x_min=roller; grid.boundary.x_max=roller; terrain.type=profile; "
         "material.rock.law=mohr_coulomb; material.rock.youngs_modulus=5e7; material.rock.poisson_ratio=0.49; "
         "material.rock.viscosity_time=; material.rock.cohesion=0; body.block.shape=polygon; body.block.min=; "
