@@ -121,10 +121,6 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     found["incline_ice_drag"] = drag(ice)
     found["incline_gain_heat"] = found["incline_DLP_velocity_25s"] - found["incline_ice_velocity"]
     found["incline_gain_all"] = found["incline_DLP_velocity_25s"] - found["incline_D_velocity_25s"]
-    points = runs["incline-DLP-points"]
-    found["incline_points_velocity"] = at(points, "mean_velocity_m_s", 25.0)
-    found["incline_points_displacement"] = at(points, "mean_displacement_m", 25.0)
-    found["incline_points_pressure"] = at(points, "band_pore_pressure_Pa", 25.0) / 1e3
     found["incline_gain_L"] = found["incline_DL_velocity_25s"] - found["incline_D_velocity_25s"]
     found["incline_gain_P"] = found["incline_DLP_velocity_25s"] - found["incline_DL_velocity_25s"]
     found |= friction_decrease(runs["incline-PL"])

@@ -22,7 +22,6 @@ INCLINES = ("D", "DL", "DLP", "PL")
 NO_LATENT = "-no-latent"
 PRINTED = "-printed"
 NO_VISCOSITY = ("material.rock_ice.viscosity_time=0.0",)
-POINTS = 'terrain.representation="rigid_points"'
 SHORT_ENDS = {"freezing-bar": 864.0, "block": 0.2, "incline": 0.1, "lamplugh": 1.0}  # s
 _COSTS = {"block-e200": 8.0, "block-e100-L5": 12.0, "block-e100": 4.0, "block-e100-L20": 3.0}
 
@@ -45,11 +44,6 @@ def all_runs() -> list[Job]:
     runs += [job(f"incline-{name}-no-viscosity", f"incline/{name}.toml", NO_VISCOSITY, 6.0) for name in ("D", "PL")]
     ice_only = ("pressure.thermal_pressurization=false",)
     runs.append(job("incline-DLP-ice", "incline/DLP.toml", ice_only, 6.0))
-    # Terrain of the paper: two layers of points in Sec. 3.3, three layers of cells with two each in Sec. 4.
-    runs.append(job("incline-DLP-points", "incline/DLP.toml", (POINTS, "terrain.layers=2"), 6.0))
-    six = (POINTS, "terrain.layers=6", "time.end=60.0")
-    runs.append(job("lamplugh-points", "lamplugh/case.toml", six, 5.0))
-    runs.append(job("lamplugh-points-540", "lamplugh/case.toml", (*six, "basal.cohesion=5.4e5"), 5.0))
     # The paper states values at 200 s, the end of its run: these runs do not stop at rest.
     whole = ("time.stop_at_rest=0",)
     runs.append(job("lamplugh", "lamplugh/case.toml", whole, 20.0))

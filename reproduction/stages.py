@@ -1,4 +1,4 @@
-"""Secs. 4.1 and 4.2 by stages: body, equilibrium, before and after 75 s; terrain as rigid points."""
+"""Secs. 4.1 and 4.2 by stages: body, equilibrium, before and after 75 s."""
 
 from __future__ import annotations
 
@@ -91,13 +91,6 @@ def diffusion(run: Run) -> dict[str, float]:
     return {f"lamplugh_{name}": value for name, value in heat.items()}
 
 
-def rigid_points(run: Run) -> float:
-    """Return the number of rigid points of the terrain, in columns half a cell apart."""
-    grid = run.section("grid")
-    columns = (grid["max"][0] - grid["min"][0]) / (0.5 * grid["cell"])
-    return float(columns * run.section("terrain")["layers"])
-
-
 def _body(run: Run) -> dict[str, float]:
     """Return volume [million m3], mean thickness [m], height [m] and length [m] of the body at the start."""
     shot = run.snapshot(0)
@@ -133,7 +126,7 @@ def _energy(run: Run) -> dict[str, float]:
 
 
 def measures(runs: dict[str, Run]) -> dict[str, float]:
-    """Return speeds and heating of the stages, and results on rigid points."""
+    """Return speeds and heating of the stages."""
     run, dry = runs["lamplugh"], runs["lamplugh-no-pressurization"]
     saturations = [float(run.history["band_saturation"][0])]
     saturations += [at(run, "band_saturation", time) for time in (START, PEAK)]
@@ -143,7 +136,6 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_speed_end": at(run, "mean_velocity_m_s", END),
         "lamplugh_heating_before": heating(run, START, PEAK),
         "lamplugh_heating_after": heating(run, PEAK, END),
-        "lamplugh_displacement_60s": at(run, "mean_displacement_m", 60.0),
         "lamplugh_friction_100s": at(run, "band_friction_coefficient", 100.0),
         "lamplugh_basal_resistance": basal_resistance(run),
         "lamplugh_dry_basal_resistance": basal_resistance(dry),
@@ -157,11 +149,4 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         found[f"lamplugh_rise_{time:.0f}s"] = at(run, "band_temperature_C", time) - start
     for time in (START, PEAK, 100.0):
         found[f"lamplugh_solid_{time:.0f}s"] = solid_fraction(run, time)
-    found |= _body(run) | _energy(run) | diffusion(run)
-    for name in ("points", "points_540"):
-        history = runs[f"lamplugh-{name.replace('_', '-')}"].history
-        found[f"lamplugh_{name}_displacement"] = float(history["mean_displacement_m"][-1])
-        found[f"lamplugh_{name}_peak"] = float(np.max(history["mean_velocity_m_s"]))
-    found["lamplugh_rigid_points"] = rigid_points(runs["lamplugh-points"])
-    found["lamplugh_all_points"] = found["lamplugh_rigid_points"] + float(len(run.snapshot(0).points))
-    return found
+    return found | _body(run) | _energy(run) | diffusion(run)

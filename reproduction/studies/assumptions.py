@@ -30,14 +30,14 @@ CASE = ROOT / "cases" / "lamplugh"
 # velocity: some of these slides rest for half a minute and then move again.
 COMMON = ("time.stop_at_rest=0", "terrain.extend=true", "grid.max=[24000.0, 2400.0]", "time.output_interval=10")
 SPREAD = "n-weak10-phi20-k500"
-LEFT = 125.0  # kPa: the case's residual cohesion
+LEFT = 120.0  # kPa: the case's residual cohesion
 BASE = Job("case", "the case")
 ONE = (
     ("Cohesion along the ground", (
         Job("cohesion-kept", "permanent cohesion of 0.6 MPa", ("basal.cohesion_law=constant",)),
         Job("cohesion-none-left", "no residual cohesion", ("basal.residual_cohesion=0.0",)),
         Job("cohesion-ice", "cohesion in proportion to the ice", ("basal.cohesion_law=ice",)),
-        Job("cohesion-time", "cohesion lost at 40 s, to 0.125 MPa",
+        Job("cohesion-time", "cohesion lost at 40 s, to 0.12 MPa",
             ("basal.cohesion_law=time", "basal.cohesion_loss_time=40.0")),
         Job("clamp-joint", "excess pressure cancels cohesion", ("basal.clamp=joint",)),
         Job("clamp-joint-kept", "permanent 0.6 MPa, excess pressure cancels it",
@@ -57,7 +57,6 @@ ONE = (
     )),
     ("Shear band and heat", (
         Job("first-layer", "xi on the first layer of cells", ("band.region=first_layer",)),
-        Job("cut-cells", "cut cells count as e thick", ("band.cut_cells=equal_thickness",)),
         Job("no-jump", "band 0.05 m thick throughout", ("band.thickness=0.05",)),
         Job("masses-current", "masses from the current n", ("heat.masses=current",)),
         Job("apparent", "apparent heat capacity", ("heat.update=apparent_capacity",)),
@@ -80,7 +79,7 @@ ONE = (
 )  # fmt: skip
 
 # The search is on cells of 20 m, at an eighth of the cost. The first row of each table is the case on these cells.
-COARSE = ("grid.cell=20.0", "time.step=0.02")
+COARSE = ("grid.cell=20.0",)
 RESIDUAL, DISTANCE = "basal.residual_cohesion", "basal.slip_distance"
 SEEPS = "material.rock_ice.hydraulic_conductivity"
 WEAK, INSIDE = "material.rock_ice.cohesion", "material.rock_ice.residual_cohesion"

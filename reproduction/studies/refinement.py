@@ -14,9 +14,9 @@ from reproduction.study import Job, Place
 from thawslide.maps import read_map
 from thawslide.run_folder import Run
 
-PLANE_CELLS = (40.0, 20.0, 10.0, 5.0, 10.0 / 3.0)  # m
+PLANE_CELLS = (40.0, 20.0, 10.0, 5.0)  # m
 PLANE_THICKNESS = 40.0  # m, of the release, along the normal
-ALR_CELLS = (10.0, 6.6, 5.0, 3.3)  # m
+ALR_CELLS = (20.0, 10.0, 6.6, 5.0)  # m
 STUDIED = 6.6  # m: the cell of the runs that isolate causes
 FILTERED = Variant("alr", "default filter")
 ROUGH = Variant("alr-rough", "unfiltered DEM", ("terrain.smooth=0",))
@@ -27,8 +27,8 @@ CAUSES = (
     Variant("alr-weak", "default filter, internal friction 25 degrees", ("material.grains.friction_angle=25",)),
 )
 ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain
+THICK = 1.0  # m, along the vertical: the thickness of areas
 QUICK = ("time.end=4", "time.output_interval=2", "time.history_interval=0.5")
-STEP_PER_CELL = 0.0045  # s/m: three quarters of the limit of the elastic wave
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,8 @@ class Found:
     end_speed: float  # mean speed at the end [m/s]
     simulated: float  # [s]
     left: float  # fraction of the mass that left the DEM
+    area: float  # covered by at least THICK at the end [m2], on the map cell of the case
+    dilation: float  # relative increase of the volume
     particles: int
     processor: float  # [s]
 
@@ -67,19 +69,15 @@ def alr_domain(cell: float) -> tuple[str, str]:
     return f"grid.min={list(ALR_LOW)}", f"grid.max={[round(value, 6) for value in high]}"
 
 
-def cells_of(cell: float) -> tuple[str, str]:
-    """Return the changes of the cell and the step."""
-    return f"grid.cell={cell:.12g}", f"time.step={STEP_PER_CELL * cell:g}"
-
-
 def plane_job(cell: float, runs: Path) -> Job:
     """Return a run on the plane."""
-    return Job(f"plane-{cell:g}", "", cells_of(cell), str(runs / "plane" / "refined-plane.toml"), cost=cell**-4)
+    case = str(runs / "plane" / "refined-plane.toml")
+    return Job(f"plane-{cell:g}", "", (f"grid.cell={cell:g}",), case, cost=cell**-4)
 
 
 def alr_job(cell: float, runs: Path, variant: Variant = FILTERED) -> Job:
     """Return a run of AlR; by default with the default filter of the DEM."""
-    changes = (*cells_of(cell), *alr_domain(cell), *variant.changes)
+    changes = (f"grid.cell={cell:g}", *alr_domain(cell), *variant.changes)
     return Job(f"{variant.name}-{cell:g}", "", changes, str(runs / "alr" / "alr.toml"), cost=cell**-4)
 
 
@@ -91,8 +89,7 @@ def jobs(place: Place) -> list[Job]:
         coarse += [alr_job(10.0, place.runs, variant) for variant in (FILTERED, WIDE, ROUGH)]
         return [replace(job, sets=(*job.sets, *QUICK)) for job in coarse]
     found = [plane_job(cell, place.runs) for cell in PLANE_CELLS]
-    found += [alr_job(cell, place.runs, variant) for variant in (FILTERED, WIDE) for cell in ALR_CELLS]
-    found += [alr_job(cell, place.runs, ROUGH) for cell in ALR_CELLS[:-1]]
+    found += [alr_job(cell, place.runs, variant) for variant in (FILTERED, WIDE, ROUGH) for cell in ALR_CELLS]
     return [*found, *(alr_job(STUDIED, place.runs, variant) for variant in CAUSES if variant is not WIDE)]
 
 
@@ -108,6 +105,7 @@ def read_found(folder: Path) -> Found:
     first, last = (run.snapshot(place, fields=["mass"]) for place in (0, -1))
     centres = [np.average(each.points[:, :2], axis=0, weights=each["mass"]) for each in (first, last)]
     history = run.history
+    thickness = read_map(folder / "maps" / "final_thickness.tif")
     return Found(
         cell=float(run.section("grid")["cell"]),
         travel=float(run.facts["travel_distance_m"]),
@@ -117,6 +115,8 @@ def read_found(folder: Path) -> Found:
         end_speed=float(history["mean_velocity_m_s"][-1]),
         simulated=run.last_time,
         left=float(history["left_mass_kg"][-1] / history["mass_kg"][0]),
+        area=float(np.sum(thickness.values >= THICK)) * thickness.grid.cell_x * thickness.grid.cell_y,
+        dilation=float(run.facts["dilation_fraction"]),
         particles=int(run.facts["particles"]),
         processor=processor_time(folder),
     )

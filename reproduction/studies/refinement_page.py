@@ -50,6 +50,8 @@ ROWS: dict[str, Callable[[Found], str]] = {
     "mean velocity at the end (m/s)": lambda found: f"{found.end_speed:.2f}",
     "simulated (s)": lambda found: f"{found.simulated:.0f}",
     "mass that left the DEM": lambda found: f"{100.0 * found.left:.1f} %",
+    "deposit area with at least 1 m (m2)": lambda found: f"{found.area:,.0f}",
+    "increase of volume by dilation": lambda found: f"{100.0 * found.dilation:.1f} %",
     "particles": lambda found: f"{found.particles:,}",
     "processor time (s)": lambda found: "" if math.isnan(found.processor) else f"{found.processor:,.0f}",
 }
@@ -115,16 +117,18 @@ def deposit_table(found: list[Deposit]) -> str:
 
 
 def spread_words(found: list[Found]) -> str:
-    """Return a sentence on the spread of runs that differ by their cell."""
+    """Return a sentence on the spread of the runs on the three finest cells."""
+    found = found[-3:]
     parts = [
         f"{words} {100.0 * spread([getattr(each, name) for each in found]):.1f} %"
         for words, name in (
             ("travel distance", "travel"),
             ("reach angle", "reach_angle"),
             ("displacement of the centre", "centre"),
+            ("deposit area", "area"),
         )
     ]
-    return f"Range over mean of the {len(found)} cells: {', '.join(parts)}."
+    return f"Range over mean of the {len(found)} finest cells: {', '.join(parts)}."
 
 
 def friction_rows(folder: Path, terrain: Map) -> list[Interval]:
@@ -204,7 +208,7 @@ def write(place: Place) -> None:
         "deposits": deposit_table(deposits) if len(deposits) > 1 else "",
         "wide": f"{cells_table(wide)}\n\n{spread_words(wide)}",
         "filtered": f"{cells_table(alr)}\n\n{spread_words(alr)}",
-        "rough": cells_table(rough),
+        "rough": f"{cells_table(rough)}\n\n{spread_words(rough)}",
         "causes": table(["", *(each.words for each in causes)], [read_found(each) for each in causes.values()]),
         "friction": "\n\n".join(
             f"On cells of {STUDIED:g} m, {each.words}:\n\n{friction_table(friction(folder))}"
