@@ -33,13 +33,19 @@ class Variant:
 
 BASE = Variant("base", "internal friction 35 degrees")
 FLUID = Variant("fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",))
+FINE = (
+    Variant("14", "cells of 14 m", ("grid.cell=14", "grid.max=[4016.0, 4016.0, 2320.0]")),
+    Variant("10", "cells of 10 m", ("grid.cell=10",)),
+)
 # For the studied angle only.
 CAUSES = (
     Variant("alike", "internal friction 15 degrees", ("material.grains.friction_angle=15",)),
     Variant("stiff", "Young's modulus 400 MPa", ("material.grains.youngs_modulus=4e8",)),
-    Variant("fine", "cells of 14 m", ("grid.cell=14", "grid.max=[4016.0, 4016.0, 2320.0]")),
+    *(
+        Variant(f"{body.name}-on-{cells.name}", f"{body.words}, {cells.words}", (*body.changes, *cells.changes))
+        for body, cells in ((BASE, FINE[0]), (FLUID, FINE[0]), (BASE, FINE[1]))
+    ),
 )
-OPTIONAL = CAUSES[1:]  # only if they are named: each takes hours
 
 
 @dataclass(frozen=True)
@@ -77,7 +83,7 @@ class Figures:
 def jobs(place: Place) -> list[Job]:
     """Return all runs."""
     pairs = [(variant, angle) for variant in (BASE, FLUID) for angle in ANGLES]
-    pairs += [(variant, STUDIED) for variant in CAUSES if place.parts or variant not in OPTIONAL]
+    pairs += [(variant, STUDIED) for variant in CAUSES]
     return [job(variant, angle, place.data / "frank", QUICK if place.is_quick else ()) for variant, angle in pairs]
 
 

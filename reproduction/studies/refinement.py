@@ -89,7 +89,8 @@ def jobs(place: Place) -> list[Job]:
         coarse += [alr_job(10.0, place.runs, variant) for variant in (FILTERED, WIDE, ROUGH)]
         return [replace(job, sets=(*job.sets, *QUICK)) for job in coarse]
     found = [plane_job(cell, place.runs) for cell in PLANE_CELLS]
-    found += [alr_job(cell, place.runs, variant) for variant in (FILTERED, WIDE, ROUGH) for cell in ALR_CELLS]
+    found += [alr_job(cell, place.runs, variant) for variant in (FILTERED, WIDE) for cell in ALR_CELLS]
+    found += [alr_job(cell, place.runs, ROUGH) for cell in ALR_CELLS[:-1]]
     return [*found, *(alr_job(STUDIED, place.runs, variant) for variant in CAUSES if variant is not WIDE)]
 
 

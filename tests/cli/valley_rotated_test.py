@@ -13,7 +13,6 @@ from conftest import ROOT, Program, history, sets
 
 VALLEY = ROOT / "cases" / "valley3d"
 CELL = 40.0  # m, twice the case's
-STEP = 0.04  # s
 REST = 160.0  # s
 NOISE = 0.1  # of the particles' distance
 SEEDS = range(1, 6)
@@ -39,7 +38,7 @@ class Valley:
     def words(self) -> list[str]:
         """Return the arguments that run it on coarse cells."""
         points = {f"probe__{name}__point": point for name, point in self.probes.items()}
-        coarse = {"grid__cell": CELL, "time__step": STEP, "time__output_interval": REST}
+        coarse = {"grid__cell": CELL, "time__output_interval": REST}
         return [str(self.folder), *sets(grid__min=self.lowest, grid__max=self.highest, **coarse, **points)]
 
 
