@@ -79,8 +79,8 @@ class BaseStencil {
   BaseStencil(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
-      const bool is_on_layer = grid.mapping().follows_ground && a + 1 == Dim;  // of nodes on the ground
-      const Real in_cells = is_on_layer ? Real(0) : position[static_cast<int>(a)] * grid.inverse_cell();
+      const bool is_vertical = a + 1 == Dim;  // the segment is on layer 0
+      const Real in_cells = is_vertical ? Real(0) : position[static_cast<int>(a)] * grid.inverse_cell();
       below[a] = static_cast<int>(std::floor(in_cells));
       weight_[a] = cubic_weights(in_cells - std::floor(in_cells));
       first_[a] = (std::floor(in_cells) - Real(1) - in_cells) * grid.cell();

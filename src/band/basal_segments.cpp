@@ -83,12 +83,12 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
 
 template <int Dim>
 void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                           const NodeGroundOf& node_ground, Real thickness, Real dt,
+                                           const NormalAtNode& node_normal, Real thickness, Real dt,
                                            mpm::Nodes<Dim>& nodes) {
   THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
                    segments_.size(), stencils_.size());
   if (checks_gaps_ || some_node_is_bare(grid, nodes)) {
-    create_segments(grid, ground, node_ground, thickness, nodes);
+    create_segments(grid, ground, node_normal, thickness, nodes);
     checks_gaps_ = false;
   }
   parallel_for(segments_.size(), [&](std::size_t p) {
@@ -98,11 +98,11 @@ void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, con
 }
 
 template <int Dim>
-void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
                                 Real duration, const mpm::Nodes<Dim>& nodes) {
   std::vector<std::uint8_t> alone(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
-    const Nearby slide = slide_near(grid, Stencil(grid, segments_[p].position), node_ground, nodes, segments_[p]);
+    const Nearby slide = slide_near(grid, Stencil(grid, segments_[p].position), node_normal, nodes, segments_[p]);
     alone[p] = slide.is_present ? 0 : 1;
     if (slide.is_present) {
       stretch_with(slide, ground, duration, segments_[p]);
@@ -125,7 +125,7 @@ void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& 
 template <int Dim>
 typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::SparseGrid<Dim>& grid,
                                                                    const Stencil& stencil,
-                                                                   const NodeGroundOf& node_ground,
+                                                                   const NormalAtNode& node_normal,
                                                                    const mpm::Nodes<Dim>& nodes,
                                                                    const Segment& segment) const {
   // added to the spread of positions, in cells squared, to keep the fit regular
@@ -143,13 +143,11 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
       return;
     }
     auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
-    const Vector<Real, Dim>* normal = node_ground(b, node).normal;
+    const Vector<Real, Dim>* normal = node_normal(b, node);
     velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
     Vector<Real, Dim> in_space = from_segment;
-    if (grid.mapping().follows_ground) {
-      in_space[Dim - 1] -=
-          segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
-    }
+    in_space[Dim - 1] -=
+        segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
     const Vector<Real, Dim> position = along_ground(in_space);
     const Vector<Real, Dim> weighted = of_node * position;
     mass += of_node;

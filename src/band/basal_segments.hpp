@@ -66,12 +66,8 @@ class BasalSegments {
       return width(position.template head<Dim - 1>()) * band::area_of<Dim>(sides);
     }
   };
-  // Ground at a node: unit normal into the ground and distance above it [m]; null if the ground is not near.
-  struct NodeGround {
-    const Vector<Real, Dim>* normal;
-    Real distance;
-  };
-  using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
+  // Unit normal into the ground at a node; null if the ground is not near.
+  using NormalAtNode = std::function<const Vector<Real, Dim>*(std::size_t block, std::size_t node)>;
 
   // gravity [m/s2].
   BasalSegments(const ColumnsModel& model, const Vector<Real, Dim>& gravity) : model_(model), gravity_(gravity) {}
@@ -81,12 +77,12 @@ class BasalSegments {
 
   // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
   // dt. First creates segments where the sliding mass touches ground without one. Call after contact.
-  void update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+  void update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
                          Real thickness, Real dt, mpm::Nodes<Dim>& nodes);
 
   // Updates segment velocities and stretches segments with the flow over the last `duration` [s]; then splits long
   // segments and merges small ones.
-  void follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground, Real duration,
+  void follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal, Real duration,
               const mpm::Nodes<Dim>& nodes);
 
   // Then steps all columns over `duration` [s]. thickness: prescribed band thickness at its end [m].
@@ -133,13 +129,13 @@ class BasalSegments {
                                      const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) const;
   [[nodiscard]] std::vector<Footpoint> contact_footpoints(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                                          const NodeGroundOf& node_ground,
+                                                          const NormalAtNode& node_normal,
                                                           const mpm::Nodes<Dim>& nodes) const;
   [[nodiscard]] std::vector<LatticePart> parts_below(const mpm::SparseGrid<Dim>& grid,
                                                      std::vector<Footpoint> footpoints) const;
   void leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<LatticePart>& parts) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const;
-  void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+  void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
                        Real thickness, mpm::Nodes<Dim>& nodes);
   void list_segments_by_block(std::size_t blocks);
   void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, Real fraction = 1) const;
@@ -159,7 +155,7 @@ class BasalSegments {
     bool is_present = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil,
-                                  const NodeGroundOf& node_ground, const mpm::Nodes<Dim>& nodes,
+                                  const NormalAtNode& node_normal, const mpm::Nodes<Dim>& nodes,
                                   const Segment& segment) const;
   void gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim>& nodes, Segment& segment) const;
   void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Segment& segment) const;

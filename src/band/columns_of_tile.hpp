@@ -112,7 +112,7 @@ struct ColumnsOfTile {
   Real cell, inverse_cell;              // [m], [1/m]
   mpm::SizesOfBodies sizes;             // half sizes of particles [m]
   Numbers thickness, top, cosine;
-  bool follows_ground = false;  // `top` is above the ground (mpm/mapping.hpp)
+  bool has_ground = false;  // `top` is above the ground (mpm/mapping.hpp)
 
   // H [m]: column thickness in the band, depth below the column top elsewhere; averaged over columns by the fraction of
   // the box in each.
@@ -152,7 +152,7 @@ struct ColumnsOfTile {
  private:
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD typename At::Value height_of(const Particles& particles, const At& at) const {
-    return follows_ground ? particles.height_above_ground.load(at) : particles.position.load(at, Dim - 1);
+    return has_ground ? particles.height_above_ground.load(at) : particles.position.load(at, Dim - 1);
   }
 };
 

@@ -157,7 +157,7 @@ ColumnsOfTile<Dim> FlowDepth<Dim>::of_tile(const mpm::SparseGrid<Dim>& grid, std
   columns.cell = grid.cell();
   columns.inverse_cell = grid.inverse_cell();
   columns.sizes = sizes_.view();
-  columns.follows_ground = grid.mapping().follows_ground;
+  columns.has_ground = grid.mapping().has_ground;
   for (std::size_t index = 0; index < indices; ++index) {
     const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[index])];
     columns.thickness.numbers[index] = thickness_of(here.column_mass, here.footprint);

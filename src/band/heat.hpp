@@ -1,8 +1,6 @@
 // Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: equivalent to a grid finer by xi.
 #pragma once
 
-#include <functional>
-
 #include "band/model.hpp"
 #include "band/nodal_heat.hpp"
 #include "mpm/nodes.hpp"
@@ -26,12 +24,10 @@ template <int Dim>
 void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first = 0);
 
 // Sets the current scaling xi = layer / thickness of particles at memory index `first` and above (1 outside the
-// region). Returns the heat [J] that the change adds at constant temperature and pressure. thickness 0: no band, xi =
-// 1. layer_thickness(x): thickness of the cells that form the band; empty: one cell, or the layer of cells that follow
-// the ground.
+// region). Returns the heat [J] that the change adds at constant temperature and pressure. thickness 0: no band,
+// xi = 1.
 template <int Dim>
 Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
-                  const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
                   mpm::Particles<Dim>& particles, std::size_t first = 0);
 
 }  // namespace thawslide::band

@@ -24,22 +24,16 @@ void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particle
 
 template <int Dim>
 Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
-                  const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
                   mpm::Particles<Dim>& particles, std::size_t first) {
-  const bool by_position = thickness > Real(0) && layer_thickness;
-  const bool by_slope = thickness > Real(0) && grid.mapping().follows_ground;
+  const bool by_slope = thickness > Real(0) && grid.mapping().has_ground;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
     if (model.region != BandRegion::all && particles.in_band(p) == 0) {
       return Real(1);
     }
-    if (by_slope) {
-      return layer_along_normal<Dim>(grid.cell(), particles, p) / thickness;
-    }
-    return by_position ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness
-                       : of_a_cell;
+    return by_slope ? layer_along_normal<Dim>(grid.cell(), particles, p) / thickness : of_a_cell;
   };
-  const auto rescale_tile = [&](std::size_t t, Real& added) {
+  return parallel_sum<Real>(grid.tiles().size(), [&](std::size_t t, Real& added) {
     with_particle_heat(model, [&](const auto& law) {
       for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
         const std::uint32_t p = grid.order()[k];
@@ -48,16 +42,7 @@ Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
         }
       }
     });
-  };
-  if (!by_position) {
-    return parallel_sum<Real>(grid.tiles().size(), rescale_tile);
-  }
-  // A thickness that depends on the position caches its results: serial calls only.
-  Real added = 0;
-  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    rescale_tile(t, added);
-  }
-  return added;
+  });
 }
 
 template <int Dim>
@@ -75,8 +60,7 @@ void add_heat(const BandModel<Dim>& model, Real heat, std::size_t particle, mpm:
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                \
   template void set_heat_content<Dim>(const BandModel<Dim>&, mpm::Particles<Dim>&, std::size_t);                  \
-  template Real rescale_band<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, Real,                       \
-                                  const std::function<Real(const Vector<Real, Dim - 1>&)>&, mpm::Particles<Dim>&, \
+  template Real rescale_band<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, Real, mpm::Particles<Dim>&, \
                                   std::size_t);                                                                   \
   template void add_heat<Dim>(const BandModel<Dim>&, Real, std::size_t, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -66,7 +66,7 @@ bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>& grid, con
 // a contact area large enough to need a segment there.
 template <int Dim>
 std::vector<typename BasalSegments<Dim>::Footpoint> BasalSegments<Dim>::contact_footpoints(
-    const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+    const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
     const mpm::Nodes<Dim>& nodes) const {
   constexpr std::size_t of_a_task = 32;  // blocks
   const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
@@ -79,11 +79,10 @@ std::vector<typename BasalSegments<Dim>::Footpoint> BasalSegments<Dim>::contact_
         if (!(contact[Contact::touching] > Real(0))) {
           continue;
         }
-        const NodeGround near = node_ground(b, k);
-        const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
+        const Vector<Real, Dim> foot = mpm::node_position(grid, b, k);
         const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
         if (unseen || contact[Contact::area] > least_area * ground.width(foot.template head<Dim - 1>())) {
-          of_task[task].push_back({lattice_cell(grid, foot), parts_on(*near.normal), foot});
+          of_task[task].push_back({lattice_cell(grid, foot), parts_on(*node_normal(b, k)), foot});
         }
       }
     }
@@ -160,8 +159,8 @@ void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std
 // horizontal lattice, to be independent of the order of nodes.
 template <int Dim>
 void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                         const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim>& nodes) {
-  std::vector<LatticePart> bare = parts_below(grid, contact_footpoints(grid, ground, node_ground, nodes));
+                                         const NormalAtNode& node_normal, Real thickness, mpm::Nodes<Dim>& nodes) {
+  std::vector<LatticePart> bare = parts_below(grid, contact_footpoints(grid, ground, node_normal, nodes));
   leave_out_covered(grid, bare);
   const std::size_t known = segments_.size();
   for (const LatticePart& one : bare) {
@@ -182,7 +181,7 @@ void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const
   }
   for (std::size_t p = known; p < segments_.size(); ++p) {
     start_segment(stencils_[p], ground, contacts[p - known], thickness, nodes, segments_[p]);
-    segments_[p].velocity = slide_near(grid, stencils_[p], node_ground, nodes, segments_[p]).velocity;
+    segments_[p].velocity = slide_near(grid, stencils_[p], node_normal, nodes, segments_[p]).velocity;
   }
 }
 
@@ -252,7 +251,7 @@ BasalSegment<Dim> BasalSegments<Dim>::new_segment(const Vector<Real, Dim - 1>& m
       const mpm::SparseGrid<Dim>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,                        \
       const std::array<int, Dim - 1>&) const;                                                                        \
   template bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&) const;    \
-  template void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>&, const Ground&, const NodeGroundOf&, \
+  template void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>&, const Ground&, const NormalAtNode&, \
                                                     Real, mpm::Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

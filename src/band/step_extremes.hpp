@@ -37,7 +37,7 @@ struct StepExtremes {
   Extreme diffusivity;          // largest, of heat [m2/s]
   Extreme seepage;              // largest, of pore pressure [m2/s]
   double pore_stiffness = 0.0;  // largest [Pa]
-  double slope = 0.0;           // largest, of the ground below particles on cells that follow it [1]
+  double slope = 0.0;           // largest, of the ground below particles [1]
 
   THAWSLIDE_HD StepExtremes& operator+=(const StepExtremes& part) {
     density.lower(part.density);

@@ -34,7 +34,6 @@ using physics::WaterExpansionLaw;
 
 enum class Stepping { fixed, adaptive };
 enum class TerrainKind { none, flat, plane, profile, dem };
-enum class TerrainForm { signed_distance, rigid_points };
 enum class LawKind { elastic, mohr_coulomb };
 enum class CurveKind { power_law, linear };
 enum class BodyShape { box, polygon, surface, release };
@@ -43,7 +42,6 @@ enum class Placement { on_top, cut };
 enum class Policy { stop, remove };
 enum class Transfer { flip, blend, apic, fmpm };
 enum class InitialStress { geostatic, none, settle };
-enum class CutCells { as_they_are, equal_thickness };
 enum class BandKind { scaled, columns };
 enum class ThicknessChange { as_published, conserving };
 enum class AdvectionForm { as_published, conservative };
@@ -82,8 +80,7 @@ struct Grid {
   Point min{};  // domain
   Point max{};
   Policy leaving = Policy::stop;  // treatment of particles that leave the domain or the DEM
-  bool follows_terrain = true;    // the ground is on a layer of nodes
-  double steepest = 65.0;         // degrees, slope to which columns of such cells are lowered
+  double steepest = 65.0;         // degrees, slope to which columns of nodes are lowered
   // boundary types at x_min, x_max, y_min, y_max, z_min, z_max
   std::array<BoundaryKind, 6> boundary{};
 };
@@ -111,8 +108,6 @@ struct Terrain {
   double slope = 0.0;      // degrees, the plane falls towards +x
   std::string file;        // of the profile or DEM; absolute once read
   bool extend = false;
-  TerrainForm form = TerrainForm::signed_distance;
-  int layers = 2;                           // layers of rigid points, two per cell
   std::string crs;                          // of a DEM file without one, or with a wrong one; "EPSG:31287"
   double resample = 0.0;                    // m, new spacing of the DEM; 0: as in the file
   NumberOrAuto smooth = {.is_auto = true};  // m, standard deviation of a Gaussian filter over the DEM; 0: none
@@ -275,7 +270,6 @@ struct Band {
   BandKind model = BandKind::scaled;  // default of a case file: parameters_model.cpp
   BandThickness thickness;            // m over time; not given: no band, xi = 1
   BandRegion region = BandRegion::all;
-  CutCells cut_cells = CutCells::as_they_are;
   ThicknessChange thickness_change = ThicknessChange::conserving;
   BandGrowth growth = BandGrowth::none;
   double grain_size = 0.05;                                      // m, BandGrowth::inertial

@@ -186,8 +186,7 @@ BodyOnCells release_on_cells(const Proposal& proposal) {
           .thickness = proposal.median_thickness,
           .cell = proposal.cell,
           .particles_per_axis = proposal.particles_per_axis,
-          .has_maps = true,
-          .follow_terrain = true};
+          .has_maps = true};
 }
 
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell, Resolution resolution) {

@@ -164,28 +164,6 @@ void check_switches(const Case& checked, Reading& reading) {
         "band.region is \"first_layer\", and the case has no terrain; there is no layer above it. Set "
         "band.region = \"all\", or give terrain.type.");
   }
-  if (reading.are_valid({"band.cut_cells", "terrain.type"}) && checked.band.cut_cells == CutCells::equal_thickness &&
-      !has_ground) {
-    reading.report_misfit(
-        {"band.cut_cells", "terrain.type"},
-        "band.cut_cells is \"equal_thickness\", and the case has no terrain; nothing cuts through cells. Set "
-        "band.cut_cells = \"as_they_are\", or give terrain.type.");
-  }
-  if (reading.are_valid({"band.cut_cells"}) && checked.band.cut_cells == CutCells::equal_thickness) {
-    const auto& [first_name, first] = *checked.bodies.begin();
-    for (const auto& [name, body] : checked.bodies) {
-      if (body.particles_per_axis != first.particles_per_axis) {
-        reading.report_misfit(
-            {"band.cut_cells"},
-            fmt::format(
-                "band.cut_cells is \"equal_thickness\", body.{}.particles_per_axis is {} and "
-                "body.{}.particles_per_axis is {}; allowed with it: one number for all bodies, because it defines the "
-                "cells of the band. Give the bodies the same, or set band.cut_cells = \"as_they_are\".",
-                first_name, first.particles_per_axis, name, body.particles_per_axis));
-        break;
-      }
-    }
-  }
   if (reading.are_valid({"mechanics.effective_stress", "pressure.enabled"}) && checked.mechanics.effective_stress &&
       !checked.pressure.enabled) {
     reading.report_misfit({"mechanics.effective_stress", "pressure.enabled"},

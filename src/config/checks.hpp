@@ -25,7 +25,7 @@ void check_bed(const Case& checked, Reading& reading);
 // Checks contact between bodies: [contact] and [contact_pair.NAME].
 void check_contact(const Case& checked, Reading& reading);
 
-// grid.follows_terrain excludes what is not available on such cells.
+// Excludes what is not available on cells that follow the terrain.
 void check_cells(const Case& checked, Reading& reading);
 
 // Checks DEM, releases, map inputs of bodies, and probes. The contents of the maps are checked later.

@@ -1,7 +1,6 @@
 // Checks of cells that follow the terrain.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "config/checks.hpp"
@@ -9,8 +8,7 @@
 namespace thawslide::config {
 
 void check_cells(const Case& checked, Reading& reading) {
-  if (!reading.are_valid({"grid.follows_terrain"}) || !checked.grid.follows_terrain ||
-      checked.terrain.kind == TerrainKind::none) {
+  if (!reading.are_valid({"terrain.type"}) || checked.terrain.kind == TerrainKind::none) {
     return;
   }
   const auto v = static_cast<std::size_t>(checked.general.dimension - 1);
@@ -22,7 +20,6 @@ void check_cells(const Case& checked, Reading& reading) {
     bool is_requested;
     const char* what;
   } options[] = {
-      {checked.terrain.form == TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
       {!checked.frames.empty() && checked.terrain.kind != TerrainKind::flat, "a [frame] on ground that is not flat"},
       {is_closed(2 * v) || is_closed(2 * v + 1), "grid.boundary at the bottom or top of the domain"},
       {is_prescribed(2 * v) || is_prescribed(2 * v + 1), "heat.boundary at the bottom or top of the domain"},
@@ -32,9 +29,10 @@ void check_cells(const Case& checked, Reading& reading) {
     found += option.is_requested ? (found.empty() ? "" : ", ") + std::string(option.what) : "";
   }
   if (!found.empty()) {
-    reading.report("grid.follows_terrain",
-                   fmt::format("grid.follows_terrain: cells that follow the terrain do not support all options of this "
-                               "case (found {}; allowed: none of these). Set grid.follows_terrain = false.",
+    reading.report("terrain.type",
+                   fmt::format("terrain.type: cells that follow the terrain do not support all options of this case "
+                               "(found {}; allowed: none of these). Remove them: the terrain is the lower boundary. A "
+                               "[frame] needs terrain.type = \"flat\".",
                                found));
   }
   if (reading.are_valid({"terrain.slope", "grid.steepest"}) && checked.terrain.kind == TerrainKind::plane &&
@@ -42,8 +40,7 @@ void check_cells(const Case& checked, Reading& reading) {
     reading.report(
         "terrain.slope",
         fmt::format("terrain.slope is {:g} degrees, steeper than cells may follow the terrain (grid.steepest "
-                    "is {:g} degrees; allowed: up to 85). Increase grid.steepest, or set "
-                    "grid.follows_terrain = false.",
+                    "is {:g} degrees; allowed: up to 85). Increase grid.steepest, or reduce terrain.slope.",
                     checked.terrain.slope, checked.grid.steepest));
   }
 }

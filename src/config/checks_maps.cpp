@@ -24,12 +24,6 @@ void check_dem(const Case& checked, Reading& reading) {
                           "terrain.type is \"dem\", and case.dimension is 2; a DEM is the ground of a 3D case. Set "
                           "case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`.");
   }
-  if (reading.are_valid({"terrain.representation"}) && checked.terrain.form == TerrainForm::rigid_points) {
-    reading.report_misfit(
-        {"terrain.representation", "terrain.type"},
-        "terrain.representation is \"rigid_points\", and terrain.type is \"dem\"; rigid points stand for profiles and "
-        "planes only. Set terrain.representation = \"signed_distance\", or leave it out.");
-  }
 }
 
 void check_release(const Case& checked, const Body& body, const std::string& table, Reading& reading) {

@@ -33,11 +33,6 @@ inline std::vector<Choice<TerrainKind>> choices(TerrainKind) {
           {TerrainKind::profile, "profile", "polyline from terrain.file; in 3D, the same at every y"},
           {TerrainKind::dem, "dem", "digital elevation model (DEM) from terrain.file, in 3D only"}};
 }
-inline std::vector<Choice<TerrainForm>> choices(TerrainForm) {
-  return {
-      {TerrainForm::signed_distance, "signed_distance", "contact normals and areas from the line or surface itself"},
-      {TerrainForm::rigid_points, "rigid_points", "contact normals and areas from layers of rigid material points"}};
-}
 inline std::vector<Choice<LawKind>> choices(LawKind) {
   return {{LawKind::elastic, "elastic", "linear isotropic elasticity with an objective stress rate"},
           {LawKind::mohr_coulomb, "mohr_coulomb", "linear elasticity with Mohr-Coulomb plasticity (Eq. 11)"}};
@@ -107,11 +102,6 @@ inline std::vector<Choice<FrictionClamp>> choices(FrictionClamp) {
 inline std::vector<Choice<BandRegion>> choices(BandRegion) {
   return {{BandRegion::all, "all", "all particles, as published"},
           {BandRegion::first_layer, "first_layer", "the first cell layer above the terrain"}};
-}
-inline std::vector<Choice<CutCells>> choices(CutCells) {
-  return {{CutCells::as_they_are, "as_they_are", "no correction: xi = grid.cell / e everywhere"},
-          {CutCells::equal_thickness, "equal_thickness",
-           "xi such that the material in these cells represents the thickness e"}};
 }
 inline std::vector<Choice<BandKind>> choices(BandKind) {
   return {{BandKind::scaled, "scaled", "heat and seepage of the particles near the base, scaled by xi"},

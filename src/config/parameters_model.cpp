@@ -113,12 +113,9 @@ std::vector<Parameter<Band>> band_parameters() {
                                 .text = "particles to which the scaling xi of band.model \"scaled\" applies",
                                 .source = "Lei et al., Sec. 2.3"})
           .only_if(when_scaled, "model", is_scaled),
-      parameter(&Band::cut_cells,
-                {.key = "cut_cells", .text = "treatment of cells that the terrain cuts, with band.model \"scaled\""})
-          .only_if(when_scaled, "model", is_scaled),
       parameter(&Band::thickness_change,
                 {.key = "thickness_change",
-                 .text = "treatment of heat when the thickness e changes over time or, with band.cut_cells, along the "
+                 .text = "treatment of heat when the thickness e changes over time or, with the slope, along the "
                          "terrain, and when particles leave the first layer"}),
       parameter(&Band::growth, {.key = "growth", .text = "growth of the band thickness with band.model \"columns\""})
           .only_if(when_columns, "model", has_columns),

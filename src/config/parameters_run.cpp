@@ -87,18 +87,12 @@ std::vector<Parameter<Grid>> grid_parameters() {
       parameter(&Grid::min, {.key = "min", .unit = "m", .text = "minimum coordinates of the domain"}).required(),
       parameter(&Grid::max, {.key = "max", .unit = "m", .text = "maximum coordinates of the domain"}).required(),
       parameter(&Grid::leaving, {.key = "leaving", .text = "treatment of particles that leave the domain or the DEM"}),
-      parameter(&Grid::follows_terrain,
-                {.key = "follows_terrain",
-                 .text = "the cells follow the terrain, so that the ground is on a layer of nodes everywhere; their "
-                         "vertical side stays grid.cell. false: level cells, which the ground cuts"}),
       parameter(&Grid::steepest,
                 {.key = "steepest",
                  .unit = "degrees",
                  .range = between(30, 85),
-                 .text = "slope limit of cells that follow the terrain: columns that rise more steeply from others are "
-                         "lowered, because the time step shortens with the slope"})
-          .only_if("when grid.follows_terrain is true", "follows_terrain",
-                   [](const Case&, const Grid& grid) { return grid.follows_terrain; }),
+                 .text = "slope limit of cells, which follow the terrain: columns that rise more steeply from others "
+                         "are lowered, because the time step shortens with the slope"}),
   };
 }
 
@@ -190,14 +184,6 @@ std::vector<Parameter<Terrain>> terrain_parameters() {
       parameter(&Terrain::extend,
                 {.key = "extend",
                  .text = "true: the profile continues with its last gradients to the ends of a longer domain"})
-          .only_if(when_no_dem, "type", is_no_dem),
-      parameter(&Terrain::form, {.key = "representation",
-                                 .text = "representation of the terrain at the grid nodes",
-                                 .formerly = "description"}),
-      parameter(&Terrain::layers, {.key = "layers",
-                                   .range = between(1, 1000),
-                                   .text = "number of layers of rigid points, two per cell",
-                                   .source = "Lei et al., Secs. 3.3, 4"})
           .only_if(when_no_dem, "type", is_no_dem),
   };
   for (auto& of_dem : dem_parameters()) {

@@ -18,15 +18,6 @@ bool are_enough(double found, double needed) { return found >= needed * (1.0 - 1
 // Rounded down: a number that is too small must not appear to be enough.
 std::string format_found(double found) { return fmt::format("{:.2g}", rounded_down(found, 2)); }
 
-// What suffices without maps.
-std::string travel_text(const BodyOnCells& body) {
-  return body.follow_terrain ? " Travel distance and speed need 2."
-                             : fmt::format(
-                                   " Travel distance and speed need 2 to 4. With grid.follows_terrain = true, "
-                                   "maps need {:g}.",
-                                   cells_for_maps(true));
-}
-
 }  // namespace
 
 bool requests_maps(const Case& parameters) {
@@ -39,14 +30,13 @@ double run_time_factor(double cell, double finer, int dimension) { return std::p
 std::string resolution_warning(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
   const double cells = body.thickness / body.cell, particles = cells * body.particles_per_axis;
   const bool lacks_particles = !are_enough(particles, fewest_particles);
-  const double needed_cells = cells_for_maps(body.follow_terrain);
-  const bool lacks_cells = body.has_maps && !are_enough(cells, needed_cells);
+  const bool lacks_cells = body.has_maps && !are_enough(cells, cells_for_maps);
   if (!lacks_particles && !lacks_cells) {
     return "";
   }
   const auto cell_for = [&](double needed) { return fitting_cell(body.thickness / needed, body.cell, lengths); };
   const auto times = [&](double finer) { return rounded_text(run_time_factor(body.cell, finer, body.dimension)); };
-  const double moving = cell_for(fewest_particles / body.particles_per_axis), mapped = cell_for(needed_cells);
+  const double moving = cell_for(fewest_particles / body.particles_per_axis), mapped = cell_for(cells_for_maps);
   std::string problem, remedy;
   if (lacks_particles) {
     problem = fmt::format("too few particles to resolve shear and thinning (found {}; needed {:g})",
@@ -55,25 +45,24 @@ std::string resolution_warning(const BodyOnCells& body, const std::string& key, 
   }
   if (lacks_cells) {
     problem += fmt::format("{}too few cells for maps of thickness and area (found {}; needed {:g})",
-                           lacks_particles ? ", and " : "", format_found(cells), needed_cells);
+                           lacks_particles ? ", and " : "", format_found(cells), cells_for_maps);
     remedy += fmt::format("{}{:.9g} m, at about {} times the run time", lacks_particles ? ", or for maps to " : "",
                           mapped, times(mapped));
   }
   return fmt::format("{}: across the median thickness of body {}, {} m, there are {}. Set {} to {}.{}", key, body.name,
                      rounded_text(body.thickness, 3), problem, key, remedy,
-                     lacks_cells && !lacks_particles ? travel_text(body) : "");
+                     lacks_cells && !lacks_particles ? " Travel distance and speed need 2." : "");
 }
 
 std::string maps_comment(const BodyOnCells& body) {
-  const double needed = cells_for_maps(body.follow_terrain);
-  if (are_enough(body.thickness / body.cell, needed)) {
+  if (are_enough(body.thickness / body.cell, cells_for_maps)) {
     return "";
   }
-  const double finer = fitting_cell(body.thickness / needed, body.cell, {});
+  const double finer = fitting_cell(body.thickness / cells_for_maps, body.cell, {});
   return fmt::format(
       "# Travel distance and speed need 2 cells across the thickness of the release. Maps of thickness and area need\n"
       "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",
-      needed, finer, rounded_text(run_time_factor(body.cell, finer, body.dimension)));
+      cells_for_maps, finer, rounded_text(run_time_factor(body.cell, finer, body.dimension)));
 }
 
 Resolution resolution_named(const std::string& name) {
@@ -89,7 +78,7 @@ double cell_of(Resolution resolution, double thickness, double median_thickness,
   if (resolution == Resolution::quick) {
     return round_down(thickness * particles_per_axis / fewest_particles);
   }
-  const double standard = round_down(median_thickness / cells_for_maps(true));
+  const double standard = round_down(median_thickness / cells_for_maps);
   return resolution == Resolution::standard ? standard : 0.5 * standard;
 }
 

@@ -12,9 +12,9 @@ namespace thawslide::config {
 
 inline constexpr double fewest_particles = 4.0;  // across the thickness, for shear and thinning
 
-// Cells across the thickness for maps: the area of the deposit of a slide on a plane is then 4 % too small on cells
-// that follow the terrain (docs/theory/contact.md), and 14 % on level cells (docs/refinement.md).
-[[nodiscard]] constexpr double cells_for_maps(bool follow_terrain) { return follow_terrain ? 4.0 : 8.0; }
+// Cells across the thickness for maps: the area of the deposit of a slide on a plane is then 4 % too small
+// (docs/theory/contact.md).
+inline constexpr double cells_for_maps = 4.0;
 
 struct BodyOnCells {
   std::string name;
@@ -23,7 +23,6 @@ struct BodyOnCells {
   int particles_per_axis = 2;
   int dimension = 3;
   bool has_maps = false;  // whether the user asks for maps
-  bool follow_terrain = false;
 };
 
 // Every 3D run writes maps. A case that sets maps.cell or maps.arrival_thickness needs them to be accurate. maps.path

@@ -21,8 +21,7 @@ class BandStages {
       : passes_(passes),
         sums_(sums),
         columns_(passes.backend, passes.model.cell, passes.model.mapping, passes.model.half_sizes,
-                 callbacks.slope_cosine, callbacks.normal_gravity),
-        layers_(passes.backend, callbacks.layer_at_middle) {
+                 callbacks.slope_cosine, callbacks.normal_gravity) {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
 
@@ -38,13 +37,6 @@ class BandStages {
     }
   }
 
-  // Call after blocks have changed, if there is a ground. blocks: keys of the active blocks.
-  void set_layers(const std::vector<std::uint64_t>& blocks) {
-    if (layers_.exists()) {
-      layers_.update(blocks);
-    }
-  }
-
   void average() {
     passes_.run(passes_.linear(), band::AddAverages<Dim>{});
     passes_.template sum<mpm::Averages, void>(AllTiles{});
@@ -56,12 +48,8 @@ class BandStages {
   void rescale(Real time) {
     const Real thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
     passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
-    if ((layers_.exists() || passes_.model.mapping.follows_ground) && thickness > Real(0)) {
-      if (layers_.exists()) {
-        rescale_by(ScalingByLayer<Dim>{layers_.layers(passes_.cells.tables(), cell), thickness});
-      } else {
-        rescale_by(ScalingBySlope<Dim>{cell, thickness});
-      }
+    if (passes_.model.mapping.has_ground && thickness > Real(0)) {
+      rescale_by(ScalingBySlope<Dim>{cell, thickness});
       scaling_in_force_ = Real(0);  // reset, because the scaling varies in space
       return;
     }
@@ -192,7 +180,6 @@ class BandStages {
   StepSums<Dim>* sums_;
   Columns<Backend, Dim> columns_;
   Array<Real, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
-  LayerThickness<Backend, Dim> layers_;
   Real scaling_in_force_ = 0;
 };
 

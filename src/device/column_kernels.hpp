@@ -189,7 +189,7 @@ struct ColumnsByTile {
             {thickness, seen},
             {top, seen},
             {cosine, seen},
-            mapping.follows_ground};
+            mapping.has_ground};
   }
 };
 

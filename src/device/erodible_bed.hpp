@@ -168,9 +168,9 @@ class ErodibleBed {
                   const mpm::SizesOfBodies& sizes, const Ground<Backend, Dim>& ground, Real cell,
                   const NodeViews<Dim>& nodes) {
     constexpr std::size_t threads = 128;
-    backend_.for_groups(
-        tables.tiles, threads, 0,
-        CoverBed<Dim>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
+    backend_.for_groups(tables.tiles, threads, 0,
+                        CoverBed<Dim>{tables, particles, sizes, SeesCandidates<Dim>{tables.tile_keys}, cell,
+                                      stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
     backend_.for_each(loads_.size(), PackLoad<Dim>{nodes, ground.candidates(), loads_.data()});
     available_.set(cpu_.distribute(parts_.get(), loads_.get()));

@@ -1,5 +1,5 @@
 // Ground at the nodes of active blocks, in device memory, as in terrain/ground_on_grid.hpp. The CPU evaluates new
-// blocks; the device finds the tiles and cells whose particles reach candidate nodes.
+// blocks.
 #pragma once
 
 #include <utility>
@@ -12,48 +12,6 @@
 #include "terrain/near_ground_kernel.hpp"
 
 namespace thawslide::device {
-
-// Marks the cells of a tile whose particles reach a candidate node with any shape function. One thread per cell.
-template <int Dim>
-struct FindNear {
-  TileTables<Dim> tables;
-  const terrain::GroundAtNode<Dim>* known;
-  std::uint8_t* near;
-
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    using T = mpm::Tile<Dim>;
-    constexpr auto nodes = static_cast<std::size_t>(T::nodes), stencil = static_cast<std::size_t>(T::stencil);
-    const std::size_t tile = k / nodes;
-    const typename T::Index nearest = T::node({}, static_cast<int>(k % nodes));
-    std::uint8_t any = 0;
-    for (std::size_t n = 0; n < stencil; ++n) {
-      typename T::Index seen = nearest;
-      std::size_t rest = n;
-      for (std::size_t a = 0; a < Dim; ++a) {
-        seen[a] += static_cast<int>(rest % 3) - 1;
-        rest /= 3;
-      }
-      const NodeInBlock<Dim> found = node_in_block<Dim>(static_cast<std::size_t>(T::in_patch(seen)));
-      const std::int32_t block = tables.blocks_about_tile[tile * stencil + found.direction];
-      any = known[static_cast<std::size_t>(block) * nodes + found.node].candidate ? 1 : any;
-    }
-    near[k] = any;
-  }
-};
-template <int Dim>
-struct FindNearTile {
-  const std::uint8_t* near;
-  std::uint8_t* any_near;
-
-  THAWSLIDE_HD void operator()(std::size_t tile) const {
-    constexpr auto nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-    std::uint8_t any = 0;
-    for (std::size_t k = 0; k < nodes; ++k) {
-      any = near[tile * nodes + k] != 0 ? 1 : any;
-    }
-    any_near[tile] = any;
-  }
-};
 
 // Copies the ground data of each node, from the former blocks or from newly queried blocks; sets its record and
 // candidate flag. One thread per node.
@@ -102,11 +60,14 @@ struct ListCandidates {
 // Filter for tiles that reach candidate nodes, and for the particles of their cells.
 template <int Dim>
 struct SeesCandidates {
-  const std::uint8_t *near, *any_near;
+  using T = mpm::Tile<Dim>;
 
-  THAWSLIDE_HD bool operator()(std::size_t tile) const { return any_near[tile] != 0; }
+  const std::uint64_t* tile_keys;
+
+  THAWSLIDE_HD bool operator()(std::size_t tile) const { return (*this)(tile, 0); }
+  // Cells are numbered like the nodes nearest to their particles; the first ones are the lowest.
   THAWSLIDE_HD bool operator()(std::size_t tile, std::size_t cell) const {
-    return near[tile * static_cast<std::size_t>(mpm::Tile<Dim>::nodes) + cell] != 0;
+    return T::node(T::index(tile_keys[tile]), static_cast<int>(cell))[Dim - 1] <= 1;
   }
 };
 
@@ -122,14 +83,10 @@ class Ground {
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
-  // Call after blocks or tiles have changed.
-  void update(const TileTables<Dim>& tables, const std::vector<std::uint64_t>& blocks) {
+  // Call after blocks have changed.
+  void update(const std::vector<std::uint64_t>& blocks) {
     update_blocks(blocks);
     list_candidates_of(blocks.size() * nodes);
-    near_.resize(tables.tiles * nodes);
-    any_near_.resize(tables.tiles);
-    backend_.for_each(near_.size(), FindNear<Dim>{tables, known_.data(), near_.data()});
-    backend_.for_each(any_near_.size(), FindNearTile<Dim>{near_.data(), any_near_.data()});
   }
 
   [[nodiscard]] const AtNode* known() const { return known_.data(); }
@@ -141,7 +98,6 @@ class Ground {
   [[nodiscard]] const std::int32_t* number() const { return number_.data(); }
   // By block: 1 if the ground below it or within one cell around it has no-data parts.
   [[nodiscard]] const std::uint8_t* partly_unknown() const { return partly_unknown_.data(); }
-  [[nodiscard]] SeesCandidates<Dim> sees_candidates() const { return {near_.data(), any_near_.data()}; }
 
  private:
   // Queries the CPU for new blocks only.
@@ -190,7 +146,7 @@ class Ground {
   Array<Real, Backend> records_{backend_};
   Array<std::uint32_t, Backend> is_candidate_{backend_}, candidates_before_{backend_}, candidates_{backend_};
   Array<std::int32_t, Backend> number_{backend_};
-  Array<std::uint8_t, Backend> near_{backend_}, any_near_{backend_}, partly_unknown_{backend_};
+  Array<std::uint8_t, Backend> partly_unknown_{backend_};
 };
 
 }  // namespace thawslide::device

@@ -5,13 +5,11 @@
 #include "band/heat_kernels.hpp"
 #include "band/nodal_heat.hpp"
 #include "band/rescaling.hpp"
-#include "device/layer_thickness.hpp"
 #include "device/node_kernels.hpp"
 
 namespace thawslide::device {
 
-// Scaling xi of particles in the band: uniform, or from the thickness of the cells along the ground, or of the layer of
-// cells that follow the ground.
+// Scaling xi of particles in the band: uniform, or from the thickness of the layer of cells along its normal.
 struct OneScaling {
   Real scaling;
 
@@ -31,26 +29,6 @@ struct ScalingBySlope {
     return band::layer_along_normal<Dim>(cell, particles, p) / thickness;
   }
 };
-template <int Dim>
-struct ScalingByLayer {
-  LayersOfTile<Dim> layers;
-  Real thickness;  // of the band [m]
-
-  [[nodiscard]] THAWSLIDE_HD ScalingByLayer in_tile(std::size_t tile) const {
-    ScalingByLayer of_tile = *this;
-    of_tile.layers.tile = tile;
-    return of_tile;
-  }
-  template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& particles, std::uint32_t p) const {
-    std::array<double, Dim - 1> position{};
-    for (std::size_t a = 0; a < position.size(); ++a) {
-      position[a] = static_cast<double>(particles.position(p, static_cast<int>(a)));
-    }
-    return static_cast<Real>(layers.at(position)) / thickness;
-  }
-};
-
 // Sets the scaling of particles in the band, or of all particles; sums the heat that the change of scaling adds.
 template <int Dim, class Content, class Scaling>
 struct RescaleBand {

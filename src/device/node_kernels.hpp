@@ -83,9 +83,7 @@ struct NodeStageArgs {
   NodeViews<Dim> nodes;
   mpm::DomainFaces<Dim> faces;
   Vector<Real, Dim> gravity;
-  Real cell;
-  mpm::Mapping mapping;
-  Real mass_damping, time, dt;
+  Real cell, mass_damping, time, dt;
   bool distance_check, pore_pressure, base_is_fixed;
 
   [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
@@ -99,14 +97,16 @@ struct NodeStageArgs {
   }
   // Clearance of a candidate node along the normal of the ground [m].
   [[nodiscard]] THAWSLIDE_HD Real clearance_along_normal(std::size_t node) const {
-    return terrain::clearance_along_normal<Dim>(mapping, nodes.known[node].normal,
-                                                nodes.near_ground_at(node)[mpm::NearGround::clearance]);
+    return terrain::clearance_along_normal(nodes.known[node].normal,
+                                           nodes.near_ground_at(node)[mpm::NearGround::clearance]);
   }
-  // Finds node `local` of the block in a direction from a node's own block. Returns false if there is no such block.
-  THAWSLIDE_HD bool find(std::size_t node, std::size_t direction, std::size_t local, std::size_t& found) const {
+  // Finds the node `step` layers above a node. Returns false if there is no such block.
+  THAWSLIDE_HD bool find_above(std::size_t node, int step, std::size_t& found) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
-    const std::int32_t block = tables.blocks_about_block[node / block_nodes * stencil + direction];
-    found = static_cast<std::size_t>(block) * block_nodes + local;
+    const auto adjacent = mpm::Tile<Dim>::adjacent(static_cast<int>(node % block_nodes), Dim - 1, step);
+    const std::int32_t block =
+        tables.blocks_about_block[node / block_nodes * stencil + static_cast<std::size_t>(adjacent.direction)];
+    found = static_cast<std::size_t>(block) * block_nodes + static_cast<std::size_t>(adjacent.local);
     return block != absent;
   }
 };
@@ -145,25 +145,16 @@ struct PressOnGround {
           known.bend * terrain::approach(step.distance_check, step.clearance_along_normal(node), step.dt, state.mass,
                                          Real(state.momentum.dot(known.normal)));
     }
-    const std::size_t local = node % NodeStageArgs<Dim>::block_nodes;
-    base[mpm::BaseLayout::covered] =
-        known.area *
-        terrain::covered_fraction<Dim>(
-            local, terrain::across_layers<Dim>(step.mapping, known.normal), [&](int direction, int further) {
-              return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
-            });
-  }
-
- private:
-  THAWSLIDE_HD Real filled(std::size_t node, std::size_t direction, std::size_t local) const {
-    std::size_t other = 0;
-    if (!step.find(node, direction, local, other)) {
-      return Real(0);
+    base[mpm::BaseLayout::covered] = Real(0);
+    if (known.area > Real(0)) {
+      const Real cell = step.cell;
+      base[mpm::BaseLayout::covered] =
+          known.area * terrain::covered_fraction(Dim == 2 ? cell * cell : cell * cell * cell, [&](int above) {
+            std::size_t other = 0;
+            return step.find_above(node, above, other) ? step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume]
+                                                       : Real(0);
+          });
     }
-    const Real cell = step.cell;
-    const terrain::GroundAtNode<Dim>& known = step.nodes.known[other];
-    const Real space = known.candidate ? known.space : Dim == 2 ? cell * cell : cell * cell * cell;
-    return terrain::filled_fraction(step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume], space);
   }
 };
 
@@ -195,11 +186,10 @@ struct GatherContactInput {
     }
     const Vector<Real, Dim>& normal = nodes.known[node].normal;
     const Real none[BaseLayout::size] = {};
-    const Real pressure = terrain::base_pressure_of_node<Dim>(
-        step.mapping, normal, step.dt, smallest_area, [&](std::size_t n) -> const Real* {
-          std::size_t other = 0;
-          return find_neighbour(node, n, other) ? nodes.base_at(other) : none;
-        });
+    const Real pressure = terrain::pressure_of_column(step.dt, smallest_area, [&](int above) -> const Real* {
+      std::size_t other = 0;
+      return step.find_above(node, above, other) ? nodes.base_at(other) : none;
+    });
     base.area = load / (pressure * step.dt);  // the basal area is divided among nodes in proportion to their loads
     base.node = terrain::contact_node_of<Dim>(
         static_cast<const Real*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
@@ -209,19 +199,6 @@ struct GatherContactInput {
     }
     base.node.time = step.time;
     base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const Real*>(nodes.momentum_at(node)), gravity);
-  }
-
- private:
-  // Neighbour n of 3^Dim, x fastest.
-  THAWSLIDE_HD bool find_neighbour(std::size_t node, std::size_t n, std::size_t& other) const {
-    using T = mpm::Tile<Dim>;
-    typename T::Index index = T::node({}, static_cast<int>(node % NodeStageArgs<Dim>::block_nodes));
-    for (std::size_t a = 0; a < Dim; ++a) {
-      index[a] += static_cast<int>(n % 3) - 1;
-      n /= 3;
-    }
-    const NodeInBlock<Dim> found = node_in_block<Dim>(static_cast<std::size_t>(T::in_patch(index)));
-    return step.find(node, found.direction, found.node, other);
   }
 };
 

@@ -78,7 +78,7 @@ struct ColumnHeights {
   }
 };
 
-// Updates positions and, on cells that follow the ground, what depends on them alone.
+// Updates positions and, with ground, what depends on them alone.
 template <int Dim>
 struct UpdatePosition {
   using Reads = mpm::RecordList<>;
@@ -86,14 +86,14 @@ struct UpdatePosition {
   using Totals = typename mpm::UpdatePosition<Dim>::Totals;
 
   mpm::UpdatePosition<Dim> update;
-  bool follows_ground;
+  bool has_ground;
   terrain::LocateAboveGround<Dim, ColumnHeights<Dim>> locate;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Totals& invalid) const {
     update(particles, at, seen, added, invalid);
-    if (follows_ground) {
+    if (has_ground) {
       locate(particles, at);
     }
   }
@@ -140,7 +140,7 @@ class Step {
         maps_(backend, model.cell, model.half_sizes),
         band_columns_(backend, callbacks.columns),
         bed_(backend, callbacks.bed) {
-    if (passes_.model.mapping.follows_ground) {
+    if (passes_.model.mapping.has_ground) {
       column_heights_.set(callbacks.column_heights());
     }
     sums_.set(std::vector<Sums>(1));
@@ -230,8 +230,7 @@ class Step {
     }
     if (passes_.ground.exists()) {
       const std::vector<std::uint64_t> blocks = passes_.cells.block_keys();
-      passes_.ground.update(passes_.cells.tables(), blocks);
-      band_.set_layers(blocks);
+      passes_.ground.update(blocks);
       band_columns_.update(blocks);
       bed_.update(blocks, passes_.ground);
       passes_.nodes.clear_base(nodes);
@@ -260,9 +259,8 @@ class Step {
   void resolve_contact(Real time, Real dt) {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
-      const SeesCandidates<Dim> sees = passes_.ground.sees_candidates();
-      passes_.run(passes_.momentum(sees), terrain::AddNearGround<Dim>{passes_.model.phases, passes_.model.lubrication,
-                                                                      passes_.model.mapping.follows_ground});
+      const SeesCandidates<Dim> sees = SeesCandidates<Dim>{passes_.cells.tables().tile_keys};
+      passes_.run(passes_.momentum(sees), terrain::AddNearGround<Dim>{passes_.model.phases, passes_.model.lubrication});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
                             band_columns_.states(), bases_.data());
@@ -279,7 +277,7 @@ class Step {
     if (passes_.ground.exists()) {
       passes_.backend.for_each(passes_.particles.size(),
                                VisitInMemory<Dim, terrain::LeaveBand<Dim>>{passes_.particles.view(), {}});
-      passes_.run(passes_.linear(passes_.ground.sees_candidates()), terrain::MarkBand<Dim>{dt});
+      passes_.run(passes_.linear(SeesCandidates<Dim>{passes_.cells.tables().tile_keys}), terrain::MarkBand<Dim>{dt});
     }
   }
 
@@ -333,7 +331,7 @@ class Step {
   // Updates positions and evaluates the reductions that the CPU requested.
   void update_positions() {
     const UpdatePosition<Dim> update{{passes_.model.lower, passes_.model.upper},
-                                     passes_.model.mapping.follows_ground,
+                                     passes_.model.mapping.has_ground,
                                      {passes_.model.columns,
                                       {passes_.model.columns, column_heights_.data()},
                                       passes_.body_sizes(),

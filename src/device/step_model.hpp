@@ -27,7 +27,7 @@
 #include "terrain/bed_node.hpp"
 #include "terrain/column_heights.hpp"
 #include "terrain/contact_work.hpp"
-#include "terrain/surface.hpp"
+#include "terrain/ground_at_node.hpp"
 
 namespace thawslide::device {
 
@@ -35,7 +35,7 @@ template <int Dim>
 struct StepModel {
   Real cell = 0;  // mesh size [m]
   mpm::Mapping mapping;
-  terrain::ColumnChunks<Dim> columns;                    // of nodes; only if the cells follow the ground
+  terrain::ColumnChunks<Dim> columns;                    // of nodes; only with ground
   std::vector<Real> half_sizes;                          // of particles, by body, in cells
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   bool affine = false;                                   // APIC
@@ -86,11 +86,6 @@ struct StepModel {
 template <int Dim>
 using GroundQuery = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes)>;
 
-// Thickness [m] of the cells along the ground at the middle of a column of cells, by its indices along the horizontal
-// axes (terrain/layer_thickness.hpp). Empty: one cell.
-template <int Dim>
-using LayerAtMiddle = std::function<double(const std::array<int, Dim - 1>&)>;
-
 // Band columns below the sliding mass, stored on the CPU; empty without band columns.
 struct HostColumns {
   // Called after the active blocks have changed, with their ascending keys. Returns the numbers of the blocks whose
@@ -129,11 +124,10 @@ inline constexpr std::size_t bed_record_size = static_cast<std::size_t>(mpm::Bed
 template <int Dim>
 struct HostCallbacks {
   GroundQuery<Dim> ground;
-  // Heights of all columns of nodes [m] (terrain/following_ground.hpp). Empty on level cells.
+  // Heights of all columns of nodes [m] (terrain/following_ground.hpp). Empty without ground.
   std::function<std::vector<double>()> column_heights;
   // As in band/flow_depth.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPosition<Dim> slope_cosine, normal_gravity;
-  LayerAtMiddle<Dim> layer_at_middle;
   HostColumns columns;
   HostBed<Dim> bed;
 };

@@ -89,8 +89,8 @@ class StepPasses {
   }
   [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
   [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(Real time, Real dt) {
-    return {cells.tables(),     views(), model.faces, model.gravity,        model.cell,          model.mapping,
-            model.mass_damping, time,    dt,          model.distance_check, model.pore_pressure, model.base_is_fixed};
+    return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,         model.mass_damping,
+            time,           dt,      model.distance_check, model.pore_pressure, model.base_is_fixed};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).

@@ -335,15 +335,8 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
   constexpr double much_friction = 0.05;
   const config::Roughness& found = *site.roughness;
   const bool is_auto = parameters.terrain.smooth.is_auto;
-  const double widest = 2.0 * std::max(found.cell, found.spacing);
-  if (!parameters.grid.follows_terrain && found.width > widest * (1.0 + 1e-9)) {
-    return fmt::format(
-        "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow. In V valleys filled less than "
-        "{:g} m wide it removes more than 3 % of the friction of the sides. Use \"auto\", or at most {:g} m.",
-        found.width, found.narrow_valley, widest);
-  }
   if (is_auto ? found.remaining_slope <= largest_slope : found.apparent_friction <= much_friction) {
-    return parameters.grid.follows_terrain ? note_of_ground(found) : "";
+    return note_of_ground(found);
   }
   const std::string remedy = is_auto
                                  ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."

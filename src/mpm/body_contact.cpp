@@ -83,7 +83,7 @@ Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& qua
 template <int Dim>
 struct ParticleAbout {
   Vector<Real, Dim> position;         // [m]
-  Vector<Real, Dim - 1> slope;        // of the ground, only on cells that follow it; else zero
+  Vector<Real, Dim - 1> slope;        // of the ground; zero without ground
   Real half;                          // half size of its box [m]
   typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
 };
@@ -106,7 +106,7 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
       ParticleAbout<Dim> one;
       one.position = particles.position.template load_vector<Dim>(at);
       one.slope.setZero();
-      if (grid.mapping().follows_ground) {
+      if (grid.mapping().has_ground) {
         one.slope = particles.ground_slope.template load_vector<Dim - 1>(at);
       }
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
@@ -126,8 +126,7 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
   return about;
 }
 
-// Extent of a particle's box along a normal [m], as in contact with the ground (terrain::set_contact_offset). On cells
-// that follow the ground, the upper and lower sides of the box are parallel to it.
+// Extent of a particle's box along a normal [m]. The upper and lower sides of the box are parallel to the ground.
 template <int Dim>
 struct Edge {
   Real along;

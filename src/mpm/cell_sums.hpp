@@ -243,9 +243,9 @@ class PatchMinima {
       for_each_node<Dim>(
           stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
             const Simd<Real> gap =
-                max(gaps.least, gap_to_plane<Dim>(gaps.position, gaps.reach,
-                                                  [&](std::size_t component)
-                                                      THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); }));
+                max(gaps.least, gap_to_plane<Dim>(gaps.position, [&](std::size_t component) THAWSLIDE_INLINE_LAMBDA {
+                      return fetch(offset, component);
+                    }));
             // Round-off decides whether a box that ends at the edge of a node's support overlaps it.
             const Simd<Real> seen = select(weight > round_off, gap, Simd<Real>(largest));
             if (nodes.runs == BatchNodes::irregular) {

@@ -1,5 +1,5 @@
-// Mapping between space and the coordinates of the background grid. On level cells, both are the same. The vertical
-// coordinate of cells that follow the ground is the height above it,
+// Mapping between space and the coordinates of the background grid. Without ground, both are the same. With ground, the
+// cells follow it: their vertical coordinate is the height above it,
 //   zeta = z - B(x),   B = sum_i S_i(x) b_i,
 // with the heights b_i of the columns of nodes and the horizontal shape functions S_i of the particle. Nodes are at
 // (x_i, b_i + zeta_k), and the weights sum_i S_i(x) sum_k S_k(zeta) reproduce linear functions of space:
@@ -16,18 +16,17 @@
 namespace thawslide::mpm {
 
 struct Mapping {
-  bool follows_ground = false;
+  bool has_ground = false;
 
   // Coordinate of particles along an axis of the grid [m].
   template <int Dim, class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto coordinate(const Particles& particles, const At& at,
                                                                      int axis) const {
-    return follows_ground && axis == Dim - 1 ? particles.height_above_ground.load(at)
-                                             : particles.position.load(at, axis);
+    return has_ground && axis == Dim - 1 ? particles.height_above_ground.load(at) : particles.position.load(at, axis);
   }
 };
 
-// Inverse of the thickness [1/m] of a layer of cells at particles: along its normal if the cells follow the ground.
+// Inverse of the thickness [1/m] of a layer of cells at particles, along its normal.
 template <int Dim, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value inverse_layer(const Particles& particles, const At& at,
                                                                       Real inverse_cell) {
@@ -45,8 +44,8 @@ class MappingAt {
  public:
   template <class Slope, class At>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE MappingAt(const Mapping& mapping, const Slope& slope, const At& at)
-      : follows_ground_(mapping.follows_ground) {
-    if (follows_ground_) {
+      : has_ground_(mapping.has_ground) {
+    if (has_ground_) {
       for (int a = 0; a + 1 < Dim; ++a) {
         slope_[a] = slope.load(at, a);
       }
@@ -56,7 +55,7 @@ class MappingAt {
   // Gradients on the grid to gradients in space.
   template <std::size_t Count>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Reading<Dim, Value, Count> in_space(Reading<Dim, Value, Count> reading) const {
-    if (follows_ground_) {
+    if (has_ground_) {
       unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
         for (int a = 0; a + 1 < Dim; ++a) {
           reading.gradient[static_cast<std::size_t>(a)][c] -= slope_[a] * reading.gradient[Dim - 1][c];
@@ -68,7 +67,7 @@ class MappingAt {
   // Fluxes in space to the fluxes that gradients on the grid multiply.
   template <class Carried>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void to_grid(Carried& carried) const {
-    if (follows_ground_) {
+    if (has_ground_) {
       unrolled<Carried::width>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
         for (int a = 0; a + 1 < Dim; ++a) {
           carried.flux[Dim - 1][c] -= slope_[a] * carried.flux[a][c];
@@ -78,7 +77,7 @@ class MappingAt {
   }
   // Gradients of a vector in space, d v_a / d x_b, to gradients on the grid.
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<Value, Dim> on_grid(Matrix<Value, Dim> gradient) const {
-    if (follows_ground_) {
+    if (has_ground_) {
       for (int a = 0; a + 1 < Dim; ++a) {
         gradient.col(a) += gradient.col(Dim - 1) * slope_[a];
       }
@@ -87,8 +86,8 @@ class MappingAt {
   }
 
  private:
-  bool follows_ground_;
-  Vector<Value, Dim - 1> slope_;  // dB/dx, only if the cells follow the ground
+  bool has_ground_;
+  Vector<Value, Dim - 1> slope_;  // dB/dx, only with ground
 };
 
 // Maps the fluxes of a contribution to a record. The kernels of APIC map theirs themselves.

@@ -221,8 +221,8 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneGaps<Dim>& car
     return smallest;
   }
   const Real* record = carried.planes + at.index * record_size(components_of<Planes, Dim>);
-  return min(smallest, max(carried.least, gap_to_plane<Dim>(carried.position, carried.reach,
-                                                            [&](std::size_t k) { return record[k]; })));
+  return min(smallest,
+             max(carried.least, gap_to_plane<Dim>(carried.position, [&](std::size_t k) { return record[k]; })));
 }
 
 }  // namespace thawslide::mpm

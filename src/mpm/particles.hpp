@@ -67,7 +67,7 @@ class Particles {
   Scalar conduction_in_cell{fields, {"conduction_in_cell", "K", FieldShape::scalar, nullptr, false}};
   Scalar seepage_in_cell{fields, {"seepage_in_cell", "Pa", FieldShape::scalar, nullptr, false}};
   Scalar load_change{fields, {"load_change", "Pa", FieldShape::scalar, nullptr, false}};
-  // On cells that follow the ground (mpm/mapping.hpp): vertical height above the ground, and slope of the ground below
+  // With ground (mpm/mapping.hpp): vertical height above it, and its slope below
   Scalar height_above_ground{fields, {"height_above_ground", "m", FieldShape::scalar, nullptr, false}};
   Field<Real, Dim - 1> ground_slope{fields, {"ground_slope", "1", FieldShape::vector, nullptr, false}};
   // The same by linear shape functions

@@ -86,16 +86,15 @@ struct Clearance : NearGround {
 struct Planes {
   using Functions = LinearFunctions;
   static constexpr std::size_t offset = 0;  // [m]
-  static constexpr std::size_t normal = 1;  // unit vector
+  static constexpr std::size_t normal = 1;  // its vertical component is -1 for gaps along the vertical, 0 for none
   template <int Dim>
   static constexpr int size = 1 + Dim;
 };
 
-// Gap between a particle and a node's plane [m]: distance along the normal minus the particle's reach. position:
-// position x of the particle. plane(component): of the record of Planes.
+// Gap between a position and a node's plane [m]. plane(component): of the record of Planes.
 template <int Dim, class Value, class Plane>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value gap_to_plane(const Value (&position)[Dim], Value reach, const Plane& plane) {
-  Value gap = plane(Planes::offset) - reach;
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value gap_to_plane(const Value (&position)[Dim], const Plane& plane) {
+  Value gap = plane(Planes::offset);
   unrolled<static_cast<std::size_t>(Dim)>(
       [&](auto a) THAWSLIDE_INLINE_LAMBDA { gap -= plane(Planes::normal + a) * position[a]; });
   return gap;
@@ -296,7 +295,6 @@ inline constexpr std::size_t scatter_size =
 template <class Value, int Dim, class PlanesRead>
 struct GapsToPlanes {
   Value position[Dim];  // [m]
-  Value reach;          // [m]
   Value least;          // gaps are at least this [m]
   PlanesRead planes;
 };

@@ -98,7 +98,7 @@ DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* 
   need.inputs = bytes_of_files(parameters);
   if (maps != nullptr && can_write_maps()) {
     const sim::MapGrid& grid = maps->map_grid();
-    need.maps = static_cast<double>(sim::map_kinds().size()) + (simulation.model().following ? 1.0 : 0.0);
+    need.maps = static_cast<double>(sim::map_kinds().size()) + (simulation.model().ground ? 1.0 : 0.0);
     need.map = static_cast<double>(grid.columns) * grid.rows * sizeof(double);
     if (const Raster* ground = simulation.site().ground.get()) {
       need.ground_maps = ground_map_count;

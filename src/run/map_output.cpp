@@ -142,7 +142,7 @@ bool can_write_maps() { return true; }
 
 void write_ground_maps(const fs::path& folder, const sim::Simulation<3>& simulation) {
   const config::Site& site = simulation.site();
-  if (simulation.model().following) {
+  if (simulation.model().ground) {
     write_map(folder, ground_map.name, sim::ground_of_cells(simulation.parameters(), site, simulation.model()),
               {ground_map.unit, ground_map.description});
   }

@@ -25,14 +25,13 @@ struct GroundMap {
   const char* unit;
   const char* description;
 };
-inline constexpr GroundMap terrain_map{"terrain", "m", "elevation of the terrain on which the material slides"};
+inline constexpr GroundMap terrain_map{"terrain", "m", "elevation of the terrain, resampled and filtered"};
 inline constexpr GroundMap release_map{"release", "m", "vertical thickness of the release"};
 inline constexpr GroundMap ground_map{"ground", "m",
-                                      "elevation of the ground of cells that follow the terrain "
-                                      "(grid.follows_terrain), on which the material then slides"};
+                                      "elevation of the ground of the cells, on which the material slides"};
 
 // Writes the first two on the points of the DEM, if the terrain is one, and the last on the grid of the other maps, if
-// cells follow the terrain.
+// there is a terrain.
 void write_ground_maps(const std::filesystem::path& folder, const sim::Simulation<3>& simulation);
 
 // Attributes of the maps.

@@ -18,21 +18,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Places of a profile that define the ground: its vertices inside the domain, or the columns of cells that follow it,
-// and the two sides of the domain.
+// Places that define the ground of a profile: the columns of nodes, and the two sides of the domain.
 template <int Dim>
 std::vector<double> stations_of(const sim::Model<Dim>& model, double cell) {
   const double extent = static_cast<double>(model.constraints.extent[0]);
-  std::vector<double> places = model.profile->x();
-  if (model.following) {
-    places.resize(static_cast<std::size_t>(std::lround(extent / cell)));
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      places[k] = static_cast<double>(k) * cell;
-    }
+  std::vector<double> x;
+  for (long k = 0; k < std::lround(extent / cell); ++k) {
+    x.push_back(static_cast<double>(k) * cell);
   }
-  std::vector<double> x{0.0};
-  std::copy_if(places.begin(), places.end(), std::back_inserter(x),
-               [&](double place) { return place > 0.0 && place < extent; });
   x.push_back(extent);
   return x;
 }
@@ -47,8 +40,7 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim>& simulatio
   for (double& station : x) {
     typename terrain::Surface<Dim>::Point point = terrain::Surface<Dim>::Point::Zero();
     point[0] = station;
-    height.push_back((model.following ? model.following->height(point) : model.profile->height(station)) +
-                     model.origin[Dim - 1]);
+    height.push_back(model.ground->height(point) + model.origin[Dim - 1]);
     station += model.origin[0];
   }
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
@@ -63,7 +55,7 @@ void write_missing_files(const fs::path& folder, const sim::Simulation<Dim>& sim
   const auto is_present = [&](const char* name) { return fs::exists(folder / "maps" / name); };
   if constexpr (Dim == 3) {
     if (!is_present("terrain.tif") || !is_present("release.tif") || !is_present("release.qml") ||
-        (simulation.model().following && !is_present("ground.tif"))) {
+        (simulation.model().ground && !is_present("ground.tif"))) {
       write_ground_maps(folder, simulation);
     }
   }

@@ -9,7 +9,6 @@
 #include "sim/bodies_apart.hpp"
 #include "sim/body_warnings.hpp"
 #include "sim/map_grid.hpp"
-#include "sim/thin_walls.hpp"
 #include "sim/unresolved_terrain.hpp"
 
 namespace thawslide::run {
@@ -23,11 +22,7 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
   warnings.add(config::warning_of_late_values(parameters));
   warnings.add(sim::body_warnings(parameters, bodies));
   warnings.add(sim::warning_of_bodies_apart(simulation));
-  if (simulation.model().following) {
-    warnings.add(sim::warnings_of_unresolved_terrain(simulation, bodies));
-  } else {
-    warnings.add(sim::warning_of_thin_walls(parameters, simulation.site()));
-  }
+  warnings.add(sim::warnings_of_unresolved_terrain(simulation, bodies));
 }
 
 template <int Dim>

@@ -96,21 +96,16 @@ void Simulation<Dim>::band_columns_follow(const mpm::SparseGrid<Dim>& grid,
         return surface.normal_below(point.template cast<double>(), cell).template cast<Real>();
       },
       [&](const auto& point) { return model_.motion.width.at(point[0]); }};
-  const auto node_ground = [&](std::size_t b, std::size_t k) {
-    using NodeGround = typename band::BasalSegments<Dim>::NodeGround;
-    if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {
-      return NodeGround{nullptr, Real(0)};
-    }
-    const auto& known = ground_on_grid.block(b)[k];
-    // On cells that follow the ground, nodes in contact lie above their footpoints.
-    return NodeGround{&known.normal, model_.following ? Real(0) : known.distance};
+  const auto node_normal = [&](std::size_t b, std::size_t k) {
+    const bool is_near = ground_on_grid.any_candidate(b) && ground_on_grid.block(b)[k].candidate;
+    return is_near ? &ground_on_grid.block(b)[k].normal : nullptr;
   };
   const auto thickness = static_cast<Real>(band_thickness());
-  band_columns_->update_from_nodes(grid, ground, node_ground, thickness, dt_, nodes);
+  band_columns_->update_from_nodes(grid, ground, node_normal, thickness, dt_, nodes);
   column_time_ += static_cast<double>(dt_);
   if (column_time_ + 0.5 * static_cast<double>(dt_) > parameters_.band.column_step) {
     const auto duration = static_cast<Real>(column_time_);
-    band_columns_->follow(grid, ground, node_ground, duration, nodes);
+    band_columns_->follow(grid, ground, node_normal, duration, nodes);
     band_columns_->step(thickness, duration);
     column_time_ = 0.0;
   }

@@ -77,7 +77,7 @@ void BlockColumn::set_normal_load(double normal_pressure) {
 }
 
 double BlockColumn::step(const BlockDrive& drive) {
-  band::rescale_band<2>(grid_, model_, drive.band_thickness, {}, rows_);
+  band::rescale_band<2>(grid_, model_, drive.band_thickness, rows_);
   band::average_on_grid(grid_, model_, rows_, nodes_);
   band::average_seeping_water(grid_, model_, rows_, nodes_);
   const double before = heat();

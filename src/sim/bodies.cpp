@@ -31,7 +31,7 @@ bool stands(const std::vector<BodyShape<Dim>>& shapes, const Vector<double, Dim>
          });
 }
 
-// On cells that follow the ground: columns of particles of equal height. Parts of bodies that stand on the terrain,
+// With ground: columns of particles of equal height. Parts of bodies that stand on the terrain,
 // also on each other, are lifted with the ground of the grid.
 template <int Dim>
 void seed_columns(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
@@ -53,8 +53,8 @@ void seed_columns(const config::Case& parameters, const Model<Dim>& model, const
         lattice[a] = static_cast<std::uint32_t>(index[a] - first[a]);
       }
       const Vector<double, Dim - 1> below = (position - model.origin).template head<Dim - 1>();
-      const double terrain = model.following->terrain().height(below) + model.origin[Dim - 1];
-      const double ground = model.following->height(below, static_cast<std::size_t>(number)) + model.origin[Dim - 1];
+      const double terrain = model.ground->terrain().height(below) + model.origin[Dim - 1];
+      const double ground = model.ground->height(below, static_cast<std::size_t>(number)) + model.origin[Dim - 1];
       for (const auto& [low, high] : shape.parts_over(position[0])) {
         const double lift =
             stands(shapes, position, low, terrain, 1e-6 * parameters.grid.cell) ? ground - terrain : 0.0;
@@ -86,7 +86,7 @@ void seed_body(const config::Case& parameters, const Model<Dim>& model, const co
       return;
     }
   }
-  if (model.following) {
+  if (model.ground) {
     seed_columns(parameters, model, body, shapes, number, seeds);
     return;
   }
@@ -152,7 +152,7 @@ void require_volume(const config::Case& parameters, const Model<Dim>& model, con
         100.0 * volume_tolerance));
   }
   // Scales columns to the body's exact volume, because its edges are not aligned with the lattice.
-  for (std::size_t p = first; (shape.release() || model.following) && p < seeds.size(); ++p) {
+  for (std::size_t p = first; (shape.release() || model.ground) && p < seeds.size(); ++p) {
     seeds[p].volume *= fraction;
   }
 }

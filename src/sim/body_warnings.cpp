@@ -193,8 +193,7 @@ std::string resolution_warning(const config::Case& parameters, const BodyFigures
                                      .cell = parameters.grid.cell,
                                      .particles_per_axis = parameters.bodies.at(body.name).particles_per_axis,
                                      .dimension = parameters.general.dimension,
-                                     .has_maps = config::requests_maps(parameters),
-                                     .follow_terrain = parameters.grid.follows_terrain};
+                                     .has_maps = config::requests_maps(parameters)};
   const std::string warning = config::resolution_warning(on_cells, "grid.cell", config::lengths_of_domain(parameters));
   return warning.empty() ? "" : config::location_of(parameters, "grid.cell") + ": " + warning;
 }

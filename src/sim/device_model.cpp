@@ -8,7 +8,7 @@
 namespace thawslide::sim {
 
 template <int Dim>
-std::string not_on_devices(const config::Case& parameters, const Model<Dim>& model) {
+std::string not_on_devices(const Model<Dim>& model) {
   const struct {
     bool is_requested;
     const char* what;
@@ -16,7 +16,6 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim>& mod
       {model.motion.width.varies(), "a case.width that varies along x"},
       {!model.constraints.frames.empty(), "a [frame]"},
       {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
-      {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
       {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
       {model.band.current_masses, "heat.masses = \"current\""},
   };
@@ -33,8 +32,8 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device::StepModel<Dim> device;
   device.cell = static_cast<Real>(parameters.grid.cell);
   device.mapping = mapping_of(model);
-  if (model.following) {
-    device.columns = model.following->columns();
+  if (model.ground) {
+    device.columns = model.ground->columns();
   }
   for (std::size_t body = 0; body < model.body_names.size(); ++body) {
     device.half_sizes.push_back(model.motion.sizes.half(body));
@@ -92,20 +91,17 @@ device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double ce
       terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, nodes);
       return terrain::is_ground_known<Dim>(*model.ground, block, cell);
     };
-  }
-  if (model.following) {
-    callbacks.column_heights = [&model] { return model.following->column_heights(); };
+    callbacks.column_heights = [&model] { return model.ground->column_heights(); };
   }
   if (model.band.normal_thickness) {
     callbacks.slope_cosine = slope_cosine_of(model, cell);
   }
   callbacks.normal_gravity = normal_gravity_of(model, cell);
-  callbacks.layer_at_middle = model.layer_at_middle;
   return callbacks;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
-  template std::string not_on_devices<Dim>(const config::Case&, const Model<Dim>&);                   \
+  template std::string not_on_devices<Dim>(const Model<Dim>&);                                        \
   template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, bool); \
   template device::HostCallbacks<Dim> terrain_for_device<Dim>(const Model<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -11,7 +11,7 @@ namespace thawslide::sim {
 
 // Feature of the case, with its key, that no device supports; empty if all are supported.
 template <int Dim>
-std::string not_on_devices(const config::Case& parameters, const Model<Dim>& model);
+std::string not_on_devices(const Model<Dim>& model);
 
 // starts: true before the first step.
 template <int Dim>

@@ -140,9 +140,7 @@ NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> positi
   one.material = static_cast<std::int32_t>(
       std::find(model_.material_names.begin(), model_.material_names.end(), parameters_.bed.material) -
       model_.material_names.begin());
-  const double height = model_.following ? model_.following->height(position, static_cast<std::size_t>(body)) + half
-                                         : model_.ground->height(position) +
-                                               half * normal.cwiseAbs().maxCoeff() / std::abs(normal[Dim - 1]);
+  const double height = model_.ground->height(position, static_cast<std::size_t>(body)) + half;
   for (int a = 0; a + 1 < Dim; ++a) {
     one.position[a] = static_cast<Real>(position[a]);
   }

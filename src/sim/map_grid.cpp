@@ -108,8 +108,8 @@ Raster ground_of_cells(const config::Case& parameters, const config::Site& site,
     const int j = static_cast<int>(row);
     for (int i = 0; i < grid.columns; ++i) {
       const Vector<double, 2> point = Vector<double, 2>(raster.x_of(i), raster.y_of(j)) - origin;
-      if ((point.array() >= 0.0).all() && (point.array() <= extent.array()).all() && model.following->is_known(point)) {
-        raster.values[raster.index(i, j)] = model.following->height(point) + model.origin[2];
+      if ((point.array() >= 0.0).all() && (point.array() <= extent.array()).all() && model.ground->is_known(point)) {
+        raster.values[raster.index(i, j)] = model.ground->height(point) + model.origin[2];
       }
     }
   });

@@ -9,9 +9,7 @@
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
 #include "sim/substrates.hpp"
-#include "terrain/following_ground.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/layer_thickness.hpp"
 #include "terrain/profile_surface.hpp"
 
 namespace thawslide::sim {
@@ -133,7 +131,7 @@ mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vec
     }
   }
   Vector<double, Dim> zero = origin;  // of the grid
-  if (parameters.grid.follows_terrain && parameters.terrain.kind == config::TerrainKind::flat) {
+  if (parameters.terrain.kind == config::TerrainKind::flat) {
     zero[Dim - 1] = parameters.terrain.elevation;
   }
   for (const auto& [name, frame] : parameters.frames) {
@@ -260,8 +258,8 @@ std::optional<terrain::Polyline> make_profile(const config::Case& parameters, co
 }
 
 template <int Dim>
-std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& parameters, const config::Site& site,
-                                                         const Model<Dim>& model) {
+std::shared_ptr<const terrain::Surface<Dim>> make_terrain(const config::Case& parameters, const config::Site& site,
+                                                          const Model<Dim>& model) {
   if constexpr (Dim == 3) {
     if (parameters.terrain.kind == config::TerrainKind::dem) {
       THAWSLIDE_ASSERT(site.ground != nullptr, "{}: no raster was read from {}", parameters.name,
@@ -278,44 +276,7 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
   if (!model.profile) {
     return nullptr;
   }
-  if (parameters.terrain.form == config::TerrainForm::rigid_points) {
-    return std::make_shared<terrain::ProfileSurface<Dim>>(*model.profile, 0.5 * parameters.grid.cell,
-                                                          parameters.terrain.layers, model.motion.width);
-  }
-  return std::make_shared<terrain::ProfileSurface<Dim>>(*model.profile, model.motion.width);
-}
-
-// Sets the thickness of the cells that form the band if it follows the ground, and its maximum at the initial bodies.
-template <int Dim>
-void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim>& model) {
-  using Layer = terrain::LayerThickness<Dim>;
-  using Point = typename Layer::Point;
-  model.largest_layer = static_cast<Real>(parameters.grid.cell);
-  if (!model.ground || model.following || parameters.band.cut_cells != config::CutCells::equal_thickness) {
-    return;
-  }
-  const config::Body& body = parameters.bodies.begin()->second;
-  const double spacing = parameters.grid.cell / body.particles_per_axis;
-  const auto filling = body.shape == config::BodyShape::release ? Layer::Filling::on_ground : Layer::Filling::lattice;
-  const auto layer = std::make_shared<Layer>(model.ground, parameters.grid.cell, spacing, filling);
-  Point from = Point::Zero(), to = Point::Zero();
-  to[0] = static_cast<double>(model.constraints.extent[0]);
-  if constexpr (Dim == 3) {
-    if (!site.releases.empty()) {
-      const Raster& release = site.releases.begin()->second.thickness;
-      from = Point(release.x, release.y) - model.origin.template head<2>();
-      to = Point(release.x_end(), release.y_end()) - model.origin.template head<2>();
-    }
-  }
-  model.largest_layer = static_cast<Real>(layer->largest(from, to));
-  model.layer_thickness = [layer](const Vector<Real, Dim - 1>& point) {
-    return static_cast<Real>(layer->at(point.template cast<double>()));
-  };
-  model.layer_at_middle = [layer](const std::array<int, Dim - 1>& column) {
-    typename Layer::Number number;
-    std::copy(column.begin(), column.end(), number.begin());
-    return layer->at_middle(number);
-  };
+  return std::make_shared<terrain::ProfileSurface<Dim>>(*model.profile);
 }
 
 }  // namespace
@@ -367,15 +328,12 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
         physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
-  model.ground = make_ground(parameters, site, model);
-  if (parameters.grid.follows_terrain && model.ground) {
-    model.following = std::make_shared<terrain::FollowingGround<Dim>>(
-        model.ground, parameters.grid.cell, model.constraints.extent.template head<Dim - 1>().template cast<double>(),
+  if (const auto terrain = make_terrain(parameters, site, model)) {
+    model.ground = std::make_shared<terrain::FollowingGround<Dim>>(
+        terrain, parameters.grid.cell, model.constraints.extent.template head<Dim - 1>().template cast<double>(),
         model.motion.sizes, model.motion.width, std::tan(radians(parameters.grid.steepest)));
-    model.ground = model.following;
   }
   model.substrates = make_substrates(parameters, site);
-  set_layer_thickness(parameters, site, model);
   return model;
 }
 

@@ -1,7 +1,6 @@
 // Model: parameters of each stage in the solver's types, built from the case; positions relative to the local origin.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,7 +15,6 @@
 #include "terrain/following_ground.hpp"
 #include "terrain/polyline.hpp"
 #include "terrain/substrates.hpp"
-#include "terrain/surface.hpp"
 
 namespace thawslide::sim {
 
@@ -28,16 +26,9 @@ struct Model {
   mpm::BetweenBodies between_bodies;
   terrain::ContactModel<Dim> contact;
   band::BandModel<Dim> band;
-  std::shared_ptr<const terrain::Surface<Dim>> ground;  // null if there is none
-  // `ground` if the cells of the grid follow it, otherwise null
-  std::shared_ptr<const terrain::FollowingGround<Dim>> following;
-  std::shared_ptr<const terrain::Substrates> substrates;  // null if the ground is of one kind
-  std::optional<terrain::Polyline> profile;               // ground, if it is a line over x
-  // Thickness of the cells that form the band, over horizontal positions, both in [m]; empty: one cell. The maximum
-  // limits the time step.
-  std::function<Real(const Vector<Real, Dim - 1>&)> layer_thickness;
-  std::function<double(const std::array<int, Dim - 1>&)> layer_at_middle;  // of a column of cells
-  Real largest_layer = 0;
+  std::shared_ptr<const terrain::FollowingGround<Dim>> ground;  // null if there is none
+  std::shared_ptr<const terrain::Substrates> substrates;        // null if the ground is of one kind
+  std::optional<terrain::Polyline> profile;                     // ground, if it is a line over x
   std::vector<Real> free_gaps;                          // by material: 1: gaps are stress-free, 0: they carry stress
   Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0 if there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is the entrained bed material
@@ -45,7 +36,7 @@ struct Model {
 
 template <int Dim>
 mpm::Mapping mapping_of(const Model<Dim>& model) {
-  return {model.following != nullptr};
+  return {model.ground != nullptr};
 }
 
 // Background grid without particles.

@@ -63,11 +63,10 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
     mpm::split_total_stress(particles_, first);
   }
   if (model_.ground) {
-    terrain::set_contact_offset(grid_, *ground_, model_.motion, particles_, first);
+    terrain::set_contact_offset(model_.motion.sizes, grid_.cell(), particles_, first);
   }
   if (!model_.contact.band_columns) {
-    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_,
-                       first);
+    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_, first);
   }
   for (std::size_t k = 0; model_.band.heat && k < joining.size(); ++k) {
     band::add_heat(model_.band, joining[k].heat, first + k, particles_);

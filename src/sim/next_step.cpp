@@ -41,8 +41,8 @@ std::string advice_on(LimitKind kind, bool removes) {
 
 template <int Dim>
 void Simulation<Dim>::locate_particles() const {
-  if (model_.following && !are_particles_located_) {
-    model_.following->locate(particles_);
+  if (model_.ground && !are_particles_located_) {
+    model_.ground->locate(particles_);
     are_particles_located_ = true;
   }
 }

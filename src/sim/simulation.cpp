@@ -208,12 +208,10 @@ void Simulation<Dim>::rescale_band() {
     return;
   }
   Real added = 0;
-  const bool depends_on_position =
-      model_.band.region != band::BandRegion::all || model_.layer_thickness || model_.following;
+  const bool depends_on_position = model_.band.region != band::BandRegion::all || model_.ground;
   if (depends_on_position || band_thickness() != current_band_thickness_) {
     current_band_thickness_ = band_thickness();
-    added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,
-                               particles_);
+    added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), particles_);
   }
   budget_.band_rescale += model_.band.heat ? added : Real(0);
 }
@@ -327,11 +325,11 @@ void Simulation<Dim>::begin() {
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
-    terrain::set_contact_offset(grid_, *ground_, model_.motion, particles_);
+    terrain::set_contact_offset(model_.motion.sizes, grid_.cell(), particles_);
   }
   mark_band();
   if (!model_.contact.band_columns) {
-    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
+    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
   }
   update_columns();
   flow_depth_.depth_to_particles(grid_, particles_);
@@ -347,9 +345,9 @@ void Simulation<Dim>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
-  particles_.height_above_ground.keep(model_.following != nullptr);
-  particles_.ground_slope.keep(model_.following != nullptr);
-  particles_.linear_slope.keep(model_.following != nullptr);
+  particles_.height_above_ground.keep(model_.ground != nullptr);
+  particles_.ground_slope.keep(model_.ground != nullptr);
+  particles_.linear_slope.keep(model_.ground != nullptr);
   band::keep_fields(model_.band, particles_);
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));

@@ -121,8 +121,8 @@ class Simulation {
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] double last_step() const { return last_step_; }
   [[nodiscard]] std::int64_t step_number() const { return step_number_; }
-  // Callers that modify particles must not keep the reference over a step on a device. Those that modify positions on
-  // cells that follow the ground must not keep it over any step.
+  // Callers that modify particles must not keep the reference over a step on a device. Those that modify positions must
+  // not keep it over any step.
   [[nodiscard]] mpm::Particles<Dim>& particles() {
     release_device();
     are_particles_located_ = false;
@@ -204,7 +204,7 @@ class Simulation {
   void post_step();
   void find_particles_cells();
   void update_ground() const;
-  // Updates the positions of particles on cells that follow the ground.
+  // Updates the heights of particles above the ground.
   void locate_particles() const;
   void momentum_to_grid();
   void average_band_on_grid();
@@ -308,7 +308,7 @@ class Simulation {
   std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
   mutable bool host_particles_valid_ = true, host_grid_valid_ = true, device_has_failed_ = false;
-  mutable bool are_particles_located_ = false;  // on cells that follow the ground
+  mutable bool are_particles_located_ = false;  // above the ground
   Real dt_ = 0, force_of_walls_ = 0;            // of the step; force along x [N]
 };
 

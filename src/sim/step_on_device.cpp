@@ -15,7 +15,7 @@ namespace thawslide::sim {
 
 template <int Dim>
 void Simulation<Dim>::use_device(const std::string& device, device::SolverFactory<Dim> make) {
-  const std::string missing = not_on_devices(parameters_, model_);
+  const std::string missing = not_on_devices(model_);
   if (!missing.empty()) {
     throw UserError(fmt::format("{}: {} is not supported on {}. Run the case on the CPU: --device cpu",
                                 parameters_.name, missing, device));

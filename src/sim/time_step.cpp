@@ -54,7 +54,7 @@ std::string wave_text(const std::string& material, double cell, const std::strin
 template <int Dim, class Visit>
 void for_limits(const config::Case& parameters, const Model<Dim>& model, double thickness,
                 const band::StepExtremes& found, const Visit& visit) {
-  // On cells that follow the ground, the thickness of their layers along its normal, where it is steepest.
+  // With ground, the thickness of the layers of cells along its normal, where it is steepest.
   const double cell = parameters.grid.cell / std::hypot(1.0, found.slope);
   const auto on_cells = [&] {
     const std::string cells = fmt::format("cells of {} m", parameters.grid.cell);
@@ -93,8 +93,7 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
     return;  // columns are implicit, and particles neither conduct nor seep
   }
   // Heat and pore pressure are resolved on the finer grid of the band.
-  const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));
-  const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
+  const double length = thickness > 0.0 ? std::min(cell, thickness) : cell;
   if (parameters.heat.enabled && parameters.heat.conduction && found.diffusivity.value > 0.0) {
     visit(diffusion_fraction * length * length / (2.0 * Dim * found.diffusivity.value), LimitKind::conduction,
           found.diffusivity.particle,

@@ -146,7 +146,7 @@ class CrestSearch {
 
   // Ground of cells of a size, without a limit of slopes.
   [[nodiscard]] Ground columns_of(double cell) const {
-    const std::shared_ptr<const terrain::Surface<Dim>> terrain(model_.following, &model_.following->terrain());
+    const std::shared_ptr<const terrain::Surface<Dim>> terrain(model_.ground, &model_.ground->terrain());
     return {terrain,
             cell,
             model_.constraints.extent.template head<Dim - 1>().template cast<double>(),
@@ -270,11 +270,11 @@ std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<Dim>& s
                                                         const std::vector<BodyFigures>& bodies) {
   const Model<Dim>& model = simulation.model();
   const config::Grid& grid = simulation.parameters().grid;
-  if (!model.following) {
+  if (!model.ground) {
     return {};
   }
   std::vector<std::string> warnings;
-  if (const auto& lowering = model.following->lowering(); lowering.columns > 0) {
+  if (const auto& lowering = model.ground->lowering(); lowering.columns > 0) {
     warnings.push_back(fmt::format(
         "grid.steepest: the terrain is steeper than {:g} degrees. Columns of nodes lowered: {}, by up to {} m at {}. "
         "Increase grid.steepest (allowed: up to 85 degrees) to keep the terrain, with shorter steps, or filter it.",

@@ -15,7 +15,7 @@ namespace thawslide::sim {
 // - rise above (fall below) the terrain on both sides within two cells (four for gullies) by more than a quarter of the
 //   median thickness of the thickest body, and reach two thirds of this height within half the distance,
 // - have less than two thirds of this height in the ground of the grid.
-// Empty on level cells.
+// Empty without terrain.
 template <int Dim>
 [[nodiscard]] std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<Dim>& simulation,
                                                                       const std::vector<BodyFigures>& bodies);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/instances.hpp"
-#include "terrain/base_pressure.hpp"
 #include "terrain/contact_node.hpp"
 #include "terrain/ground_on_grid.hpp"
 
@@ -62,19 +61,39 @@ void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k
   basal.unit_weight[c] = unit_weight_of<Dim>(nodes.momentum(b, k), model.law.gravity);
 }
 
-// Computes the normal pressure of a block with candidate nodes, finds its loaded nodes, and evaluates the laws of the
-// case. finish(state, k): called for all other nodes with mass.
+// Node `step` layers above a node of a block. block: absent if there is none.
+struct NodeInColumn {
+  std::int32_t block;
+  std::size_t node;
+};
+template <int Dim>
+NodeInColumn node_above(const mpm::SparseGrid<Dim>& grid, std::size_t b, std::size_t k, int step) {
+  const auto adjacent = mpm::Tile<Dim>::adjacent(static_cast<int>(k), Dim - 1, step);
+  return {grid.blocks_about_block(b)[adjacent.direction], static_cast<std::size_t>(adjacent.local)};
+}
+
+// Normal pressure [Pa] on the ground at a loaded node (Eq. 16), which also determines its contact area.
+template <int Dim>
+Real normal_pressure(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::Nodes<Dim>& nodes,
+                     std::size_t b, std::size_t k, Real dt) {
+  using Record = std::remove_cvref_t<decltype(nodes.base(b, k))>;
+  static constexpr Record none{};
+  const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
+  return pressure_of_column(dt, smallest, [&](int step) -> const Record& {
+    const NodeInColumn found = node_above(grid, b, k, step);
+    const auto block = static_cast<std::size_t>(found.block);
+    return found.block != KeyIndex::absent && ground.any_candidate(block) ? nodes.base(block, found.node) : none;
+  });
+}
+
+// Finds the loaded nodes of a block with candidate nodes, and evaluates the laws of the case. finish(state, k): called
+// for all other nodes with mass.
 template <int Dim, class Finish>
 void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                   const typename GroundOnGrid<Dim>::Block* known, const ContactModel<Dim>& model,
                   const mpm::BlockConstraints<Dim>& on_block, std::size_t b, Real time, Real dt,
                   const mpm::Nodes<Dim>& nodes, BlockContact<Dim>& contact, const Finish& finish) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-  std::array<Real, block_nodes> pressure{};
-  if (known != nullptr) {
-    const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
-    pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
-  }
   for (std::size_t k = 0; k < block_nodes; ++k) {
     if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
       continue;
@@ -82,7 +101,8 @@ void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* gro
     const mpm::NodeConstraints<Dim> walls{on_block, k};
     const auto state = trial_state<Dim>(walls, dt, model.mass_damping, nodes.momentum(b, k));
     if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-      add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
+      add_contact_node(nodes, b, k, normal_pressure(grid, *ground, nodes, b, k, dt), dt, model, (*known)[k], state,
+                       contact);
     } else {
       finish(state, k);
     }
@@ -90,30 +110,18 @@ void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* gro
   evaluate_basal_law(model.law, time, contact.basal);
 }
 
-// Filled fraction of a node's space, 0 to 1.
+// Covered fraction of the ground at a node of layer 0.
 template <int Dim>
-Real filled_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                        const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
-  const bool near_ground = ground.any_candidate(b) && ground.block(b)[k].candidate;
+Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes,
+                         std::size_t b, std::size_t k) {
   const Real cell = grid.cell();
-  const Real space = near_ground ? ground.block(b)[k].space
-                     : Dim == 2  ? cell * cell * width.at(mpm::node_position(grid, b, k)[0])
-                                 : cell * cell * cell;
-  return filled_fraction(nodes.momentum(b, k)[MomentumLayout<Dim>::volume], space);
-}
-
-// Covered fraction of the ground below a node.
-template <int Dim>
-Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                         const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
-  return covered_fraction<Dim>(
-      k, across_layers<Dim>(grid.mapping(), ground.block(b)[k].normal), [&](int direction, int node) {
-        const std::int32_t block = grid.blocks_about_block(b)[direction];
-        return block == KeyIndex::absent
-                   ? Real(0)
-                   : filled_fraction_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
-                                        static_cast<std::size_t>(node));
-      });
+  const Real space = (Dim == 2 ? width.at(mpm::node_position(grid, b, k)[0]) : cell) * cell * cell;
+  return covered_fraction(space, [&](int step) {
+    const NodeInColumn found = node_above(grid, b, k, step);
+    return found.block == KeyIndex::absent
+               ? Real(0)
+               : nodes.momentum(static_cast<std::size_t>(found.block), found.node)[MomentumLayout<Dim>::volume];
+  });
 }
 
 // Initializes a block without contact. known: ground at its nodes.
@@ -145,9 +153,7 @@ void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, const typename GroundOnG
   };
   for (std::size_t c = 0; c < basal.count; ++c) {
     Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
-    if (grid.mapping().follows_ground) {
-      position[Dim - 1] = known[contact.node[c]].elevation;
-    }
+    position[Dim - 1] = known[contact.node[c]].elevation;
     nodes.position.insert(nodes.position.end(), position.data(), position.data() + Dim);
   }
   append(nodes.area, contact.area);
@@ -220,8 +226,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
             known.bend * approach(model.distance_check,
-                                  clearance_along_normal<Dim>(grid.mapping(), known.normal,
-                                                              nodes.near_ground(b, k)[NearGround::clearance]),
+                                  clearance_along_normal(known.normal, nodes.near_ground(b, k)[NearGround::clearance]),
                                   dt, state.mass, Real(state.momentum.dot(known.normal)));
         if (base[BaseLayout::load] > Real(0)) {
           loaded[b] = 1;
@@ -239,9 +244,9 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
     }
     for (std::size_t k = 0; k < block_nodes; ++k) {
       const GroundAtNode<Dim>& known = ground.block(b)[k];
-      if (known.candidate) {
+      if (known.area > Real(0)) {
         nodes.base.of_block(b)[k][BaseLayout::covered] =
-            known.area * covered_fraction_at(grid, ground, model.width, nodes, b, k);
+            known.area * covered_fraction_at(grid, model.width, nodes, b, k);
       }
     }
   });

@@ -18,18 +18,6 @@
 
 namespace thawslide::terrain {
 
-// At 45 degrees, the vertical axis is chosen with a tolerance, to be independent of round-off.
-template <int Dim>
-THAWSLIDE_HD int main_axis(const Vector<Real, Dim>& normal) {
-  int axis = Dim - 1;
-  for (int a = Dim - 2; a >= 0; --a) {
-    if (std::abs(normal[a]) > (Real(1) + round_off) * std::abs(normal[axis])) {
-      axis = a;
-    }
-  }
-  return axis;
-}
-
 // Smallest contact area, as a fraction of a cell's face: keeps N = p.n / (A dt) finite without ground nearby.
 inline constexpr double smallest_area = 1e-6;
 
@@ -72,72 +60,36 @@ inline THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, 
   return max(Real(0), distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
 }
 
-// Clearance along the normal [m] from that of a record, which is along the vertical on cells that follow the ground.
+// Clearance along the normal [m] from that of a record, which is along the vertical.
 template <int Dim>
-THAWSLIDE_HD Real clearance_along_normal(const mpm::Mapping& mapping, const Vector<Real, Dim>& normal, Real clearance) {
-  return mapping.follows_ground ? -normal[Dim - 1] * clearance : clearance;
+THAWSLIDE_HD Real clearance_along_normal(const Vector<Real, Dim>& normal, Real clearance) {
+  return -normal[Dim - 1] * clearance;
 }
 
-// Direction into the ground across the layers of nodes near it.
-template <int Dim>
-THAWSLIDE_HD Vector<Real, Dim> across_layers(const mpm::Mapping& mapping, const Vector<Real, Dim>& normal) {
-  return mapping.follows_ground ? Vector<Real, Dim>(-Vector<Real, Dim>::Unit(Dim - 1)) : normal;
-}
-
-// Filled fraction of a node's space [m3], 0 to 1.
-inline THAWSLIDE_HD Real filled_fraction(Real volume, Real space) { return volume < space ? volume / space : Real(1); }
-
-// Covered fraction of the ground below a node of a block: the largest filled fraction of the node's space and of the
-// spaces of the next two nodes away from the ground, because contact acts before the gap below the mass is closed.
-// filled(direction, node): filled fraction at a node of the block in that direction; 0 if there is none.
-template <int Dim, class Filled>
-THAWSLIDE_HD Real covered_fraction(std::size_t node, const Vector<Real, Dim>& into_ground, const Filled& filled) {
-  using T = mpm::Tile<Dim>;
-  const int axis = main_axis<Dim>(into_ground);
-  const int outward = into_ground[axis] > Real(0) ? -1 : 1;
-  Real fraction = filled(T::stencil / 2, static_cast<int>(node));
+// Covered fraction of the ground at a node of layer 0: the largest filled fraction of the node's space and of the
+// spaces of the next two nodes above, because contact acts before the gap below the mass is closed. space: of a node
+// above the ground [m3]. volume(step): of the particles at the node `step` layers above [m3].
+template <class Volume>
+THAWSLIDE_HD Real covered_fraction(Real space, const Volume& volume) {
+  const auto filled = [](Real of_particles, Real whole) {
+    return of_particles < whole ? of_particles / whole : Real(1);
+  };
+  Real fraction = filled(volume(0), Real(0.5) * space);
   for (int step = 1; step <= 2 && fraction < Real(1); ++step) {
-    const typename T::Adjacent further = T::adjacent(static_cast<int>(node), axis, step * outward);
-    fraction = max(fraction, filled(further.direction, further.local));
+    fraction = max(fraction, filled(volume(step), space));
   }
   return fraction;
 }
 
-// Normal pressure [Pa] of a node on cells that follow the ground, where the column of the node alone has both load and
-// area. Nodes below the ground bear load of particles that have sunk in. base: as below.
-template <int Dim, class Base>
+// Normal pressure [Pa] at a node: load over covered area of the nodes of its column. Nodes below the ground bear load
+// of particles that have sunk in. base(step): record of BaseLayout of the node `step` layers above.
+template <class Base>
 THAWSLIDE_HD Real pressure_of_column(Real dt, Real smallest_area, const Base& base) {
-  constexpr std::size_t columns = Dim == 2 ? 3 : 9;
   Real load = 0, covered = 0;
-  for (std::size_t layer = 0; layer < 3; ++layer) {
-    const auto& record = base(columns / 2 + layer * columns);
+  for (int step = -1; step <= 1; ++step) {
+    const auto& record = base(step);
     load += record[mpm::BaseLayout::load];
     covered += record[mpm::BaseLayout::covered];
-  }
-  return load / (dt * max(covered, smallest_area));
-}
-
-// Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): record of BaseLayout of neighbour
-// k of 3^Dim, including the node itself, x fastest.
-template <int Dim, class Base>
-THAWSLIDE_HD Real base_pressure_of_node(const mpm::Mapping& mapping, const Vector<Real, Dim>& into_ground, Real dt,
-                                        Real smallest_area, const Base& base) {
-  if (mapping.follows_ground) {
-    return pressure_of_column<Dim>(dt, smallest_area, base);
-  }
-  const int across = main_axis<Dim>(into_ground);
-  const auto weight = [&](int axis, std::size_t k) {
-    return axis == across ? Real(1) : k == 1 ? Real(0.5) : Real(0.25);
-  };
-  Real load = 0, covered = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::stencil); ++k) {
-    Real along = weight(0, k % 3) * weight(1, k / 3 % 3);
-    if constexpr (Dim == 3) {
-      along *= weight(2, k / 9);
-    }
-    const auto& record = base(k);
-    load += along * record[mpm::BaseLayout::load];
-    covered += along * record[mpm::BaseLayout::covered];
   }
   return load / (dt * max(covered, smallest_area));
 }

@@ -41,19 +41,6 @@ class ConvexPolygon {
     corner_[static_cast<std::size_t>(size_++)] = corner;
   }
 
-  // Least and greatest coordinate along an axis.
-  struct Extent {
-    double least, greatest;
-  };
-  [[nodiscard]] Extent extent(int axis) const {
-    Extent extent{HUGE_VAL, -HUGE_VAL};
-    for (int k = 0; k < size_; ++k) {
-      extent.least = std::min(extent.least, (*this)[k][axis]);
-      extent.greatest = std::max(extent.greatest, (*this)[k][axis]);
-    }
-    return extent;
-  }
-
   // Area of the projection on the horizontal plane, positive for corners counter-clockwise from above.
   [[nodiscard]] double plan_area() const {
     double twice = 0.0;

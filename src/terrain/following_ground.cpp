@@ -253,8 +253,8 @@ double FollowingGround<Dim>::largest_bend_about(const Column& column) const {
 }
 
 template <int Dim>
-void FollowingGround<Dim>::at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const {
-  const double face = std::pow(cell, Dim - 1);
+void FollowingGround<Dim>::at_block(const NodeIndex& first, int edge, GroundAtNode<Dim>* nodes) const {
+  const double face = std::pow(cell_, Dim - 1);
   int columns = 1;
   for (int a = 0; a + 1 < Dim; ++a) {
     columns *= edge;
@@ -265,13 +265,13 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, double cell, int edg
     Point point;
     for (int a = 0, rest = c; a + 1 < Dim; ++a, rest /= edge) {
       at[static_cast<std::size_t>(a)] = first[static_cast<std::size_t>(a)] + rest % edge;
-      point[a] = at[static_cast<std::size_t>(a)] * cell;
+      point[a] = at[static_cast<std::size_t>(a)] * cell_;
     }
     const Resolved ground = resolved(at);
     const double height = column_height(at);
     double bend = 1.0, scale = 0.0;
     if (!is_above) {
-      const double of_terrain = terrain_->column_means(point, cell).area / ground.resultant;
+      const double of_terrain = terrain_->column_means(point, cell_).area / ground.resultant;
       bend = std::max(1.0, std::min(of_terrain, 1.0 + most_bend * (largest_bend_about(at) - 1.0)));
       scale = ground.resultant * std::clamp((ground.bend() - kink_begins) / (kink_ends - kink_begins), 0.0, 1.0);
     }
@@ -287,14 +287,12 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, double cell, int edg
       GroundAtNode<Dim>& node = nodes[c + k * columns];
       node.substrate = 0;
       node.candidate = layer <= 0;
-      node.elevation = static_cast<Real>(height + layer * cell);
+      node.elevation = static_cast<Real>(height + layer * cell_);
       node.normal = normal.template cast<Real>();
       node.bend = static_cast<Real>(bend);
       node.area = static_cast<Real>(layer == 0 ? across * face * bend * ground.resultant : 0.0);
       node.plane_scale = static_cast<Real>(node.candidate ? scale : 0.0);
       node.plane = static_cast<Real>(node.candidate ? scale * normal.dot(middle) : HUGE_VAL);
-      node.space = static_cast<Real>(across * face * cell * (layer == 0 ? 0.5 : layer < 0 ? 0.0 : 1.0));
-      node.distance = static_cast<Real>(layer * cell / ground.resultant);
     }
   }
 }

@@ -8,6 +8,7 @@
 //   b_i = min over j of (mean height of column j + s |x_i - x_j|).
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
 #include "terrain/column_heights.hpp"
+#include "terrain/ground_at_node.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::terrain {
@@ -24,7 +26,7 @@ template <int Dim>
 class FollowingGround final : public Surface<Dim> {
  public:
   using Point = typename Surface<Dim>::Point;
-  using NodeIndex = typename Surface<Dim>::NodeIndex;
+  using NodeIndex = std::array<int, Dim>;
   using ColumnMeans = typename Surface<Dim>::ColumnMeans;
 
   // terrain: the ground as it is. extent: of the domain [m]; beyond it, columns have the height of the nearest one.
@@ -41,9 +43,6 @@ class FollowingGround final : public Surface<Dim> {
   // B and its gradient. Over more than a cell, the gradient is that of the terrain.
   [[nodiscard]] double height(const Point& point) const override;
   [[nodiscard]] Point gradient(const Point& point, double width) const override;
-  [[nodiscard]] double highest(const Point& from, const Point& to) const override {
-    return terrain_->highest(from, to);
-  }
   [[nodiscard]] double steepest(const Point& from, const Point& to) const override {
     return terrain_->steepest(from, to);
   }
@@ -66,9 +65,9 @@ class FollowingGround final : public Surface<Dim> {
   };
   [[nodiscard]] const Lowering& lowering() const { return lowering_; }
 
-  // Nodes of a grid that follows the ground: those of layer 0 are on it. `plane` and `plane_scale` give clearances
-  // along the vertical.
-  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const override;
+  // Fills the ground data of the `edge`^Dim nodes of a block, x fastest. first: index of its first node along each
+  // axis.
+  void at_block(const NodeIndex& first, int edge, GroundAtNode<Dim>* nodes) const;
 
   // Sets the height above the ground and the slopes of the ground of all particles, from their positions.
   void locate(mpm::Particles<Dim>& particles) const;

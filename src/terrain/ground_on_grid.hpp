@@ -7,8 +7,8 @@
 
 #include "base/key_index.hpp"
 #include "mpm/nodes.hpp"
+#include "terrain/following_ground.hpp"
 #include "terrain/substrates.hpp"
-#include "terrain/surface.hpp"
 
 namespace thawslide::terrain {
 
@@ -24,9 +24,9 @@ typename mpm::Tile<Dim>::Index first_node_of(std::uint64_t block) {
 
 // True if the ground is known everywhere below a block and within one cell around it.
 template <int Dim>
-bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double cell) {
+bool is_ground_known(const FollowingGround<Dim>& surface, std::uint64_t block, double cell) {
   const auto first = first_node_of<Dim>(block);
-  typename Surface<Dim>::Point from, to;
+  typename FollowingGround<Dim>::Point from, to;
   for (int a = 0; a + 1 < Dim; ++a) {
     from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
     to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + mpm::Tile<Dim>::edge) * cell;
@@ -36,11 +36,11 @@ bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double ce
 
 // Ground at the nodes of a block. substrates: null if there is only one.
 template <int Dim>
-void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
+void query_ground(const FollowingGround<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
                   GroundAtNode<Dim>* nodes) {
   using T = mpm::Tile<Dim>;
   const typename T::Index first = first_node_of<Dim>(block);
-  surface.at_block(first, cell, T::edge, nodes);
+  surface.at_block(first, T::edge, nodes);
   for (int n = 0; n < T::nodes && substrates != nullptr; ++n) {
     const typename T::Index node = T::node({}, n);
     const auto along = [&](std::size_t a) { return static_cast<double>(first[a] + node[a]) * cell; };
@@ -57,7 +57,8 @@ class GroundOnGrid {
 
   // Updates blocks and tiles; call after the grid's blocks have changed. Blocks that the sliding mass has left are kept
   // for a while. substrates: null if there is only one.
-  void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim>& grid, const Substrates* substrates = nullptr) {
+  void update(const FollowingGround<Dim>& surface, const mpm::SparseGrid<Dim>& grid,
+              const Substrates* substrates = nullptr) {
     forget_left_blocks(grid);
     number_.resize(grid.blocks().size());
     const std::size_t known_before = blocks_.size();
@@ -73,21 +74,19 @@ class GroundOnGrid {
     parallel_for(keys_.size() - known_before, [&](std::size_t k) {
       evaluate(surface, substrates, static_cast<double>(grid.cell()), known_before + k);
     });
-    near_.resize(keys_.size());
-    tile_.resize(grid.tiles().size());
-    parallel_for(grid.tiles().size(), [&](std::size_t t) {
-      tile_[t] = number_[static_cast<std::size_t>(grid.blocks_about_tile(t)[T::stencil / 2])];
-      Nearness& near = near_[static_cast<std::size_t>(tile_[t])];
-      if (!near.is_known) {
-        find_near(grid, t, near);
-      }
-    });
+    lowest_layer_.resize(grid.tiles().size());
+    for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+      lowest_layer_[t] = T::index(grid.tiles()[t].key)[Dim - 1] * T::edge - 1;
+    }
   }
 
   // True if particles of tile t reach a candidate node with any shape function.
-  [[nodiscard]] bool any_near(std::size_t t) const { return near_of(t).any; }
+  [[nodiscard]] bool any_near(std::size_t t) const { return lowest_layer_[t] <= 0; }
   // The same for one particle, by the place of its lowest node in the tile's patch, and for a batch.
-  [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const { return near_of(t).from[lowest] != 0; }
+  [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const {
+    constexpr auto nodes_of_layer = static_cast<std::size_t>(T::patch_rows);
+    return lowest_layer_[t] + static_cast<int>(lowest / nodes_of_layer) <= 0;
+  }
   [[nodiscard]] bool any_near(std::size_t t, const mpm::BatchNodes& nodes) const {
     const auto is_near = [&](std::int32_t lowest) { return any_near(t, static_cast<std::size_t>(lowest)); };
     return nodes.runs == 1 ? is_near(nodes.first[0]) : std::any_of(nodes.first.begin(), nodes.first.end(), is_near);
@@ -106,14 +105,6 @@ class GroundOnGrid {
   [[nodiscard]] std::size_t stored() const { return blocks_.size(); }
 
  private:
-  using Patch = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
-  // Candidate nodes in reach of a tile's particles. They depend on the ground only and are computed once per tile.
-  struct Nearness {
-    bool is_known = false, any = false;
-    Patch from{};  // by place in the tile's patch: 1 if one of the 3^Dim nodes from there on is a candidate
-  };
-  [[nodiscard]] const Nearness& near_of(std::size_t t) const { return near_[static_cast<std::size_t>(tile_[t])]; }
-
   // Removes inactive blocks from the cache when most of its blocks are inactive.
   void forget_left_blocks(const mpm::SparseGrid<Dim>& grid) {
     constexpr std::size_t stored_per_active = 3;
@@ -140,61 +131,20 @@ class GroundOnGrid {
     blocks_ = std::move(blocks);
     any_candidate_ = std::move(any_candidate);
     partly_unknown_ = std::move(partly_unknown);
-    near_.clear();
   }
 
-  void evaluate(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
+  void evaluate(const FollowingGround<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     query_ground<Dim>(surface, substrates, keys_[k], cell, blocks_[k].data());
-    any_candidate_[k] = 0;
+    any_candidate_[k] = first_node_of<Dim>(keys_[k])[Dim - 1] <= 0 ? 1 : 0;
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
-    for (const GroundAtNode<Dim>& node : blocks_[k]) {
-      any_candidate_[k] |= node.candidate ? 1 : 0;
-    }
   }
 
-  void find_near(const mpm::SparseGrid<Dim>& grid, std::size_t t, Nearness& found) const {
-    found.is_known = true;
-    const std::int32_t* blocks = grid.blocks_about_tile(t);
-    if (std::none_of(blocks, blocks + T::stencil,
-                     [&](std::int32_t b) { return any_candidate(static_cast<std::size_t>(b)); })) {
-      return;
-    }
-    Patch candidate{};
-    mpm::for_each_direction<Dim>([&](auto d) {
-      const auto b = static_cast<std::size_t>(blocks[d]);
-      if (any_candidate(b)) {
-        mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
-          candidate[in_patch] = block(b)[in_block].candidate ? 1 : 0;
-        });
-      }
-    });
-    for (int node = 0; node < T::nodes; ++node) {  // nearest node
-      const typename T::Index nearest = T::node({}, node);
-      std::uint8_t& near = found.from[static_cast<std::size_t>(T::in_patch(below(nearest)))];
-      for (int k = 0; k < T::stencil; ++k) {
-        typename T::Index seen = nearest;
-        for (int a = 0, rest = k; a < Dim; ++a, rest /= 3) {
-          seen[static_cast<std::size_t>(a)] += rest % 3 - 1;
-        }
-        near |= candidate[static_cast<std::size_t>(T::in_patch(seen))];
-      }
-    }
-    found.any = std::any_of(found.from.begin(), found.from.end(), [](std::uint8_t near) { return near != 0; });
-  }
-  static typename T::Index below(typename T::Index node) {
-    for (int& along : node) {
-      --along;
-    }
-    return node;
-  }
-
-  KeyIndex index_;  // block key -> index in keys_, blocks_, near_ and the marks
+  KeyIndex index_;  // block key -> index in keys_, blocks_ and the marks
   std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
   std::vector<std::uint8_t> any_candidate_, partly_unknown_;
   std::vector<std::int32_t> number_;  // active block -> index in blocks_
-  std::vector<Nearness> near_;        // by index in keys_, for tiles
-  std::vector<std::int32_t> tile_;    // active tile -> index in near_
+  std::vector<int> lowest_layer_;     // of nodes in reach of the particles, by tile
 };
 
 }  // namespace thawslide::terrain

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "base/raster.hpp"
@@ -16,9 +15,6 @@ namespace thawslide::terrain {
 
 class HeightField final : public Surface<3> {
  public:
-  // Distances are exact up to this number of grid cells.
-  static constexpr double reach_in_cells = 4.0;
-
   // Elevations [m] at points relative to the domain's lower corner; NaN: no data. At least two points along each axis,
   // and one with data.
   explicit HeightField(Raster points);
@@ -28,32 +24,14 @@ class HeightField final : public Surface<3> {
   [[nodiscard]] Point gradient(const Point& point, double width) const override;
   // Exact to round-off.
   [[nodiscard]] ColumnMeans column_means(const Point& at, double cell) const override;
-  [[nodiscard]] double highest(const Point& from, const Point& to) const override;
   [[nodiscard]] double steepest(const Point& from, const Point& to) const override;
-
-  // Area and space are exact to round-off. The normal is along the integral of S n dA if the node has area, otherwise
-  // towards the nearest point of the surface. If the surface is further than `reach_in_cells`, the distance is that
-  // limit, with its sign, and the normal is that of the ground vertically below or above.
-  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3>* nodes) const override;
-  // The same for nodes at any position. lowest: position of the first node.
-  void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes) const;
 
   // True within the outermost points if all points of the cells there have data.
   [[nodiscard]] bool is_known(const Point& point) const override;
   [[nodiscard]] bool is_known(const Point& from, const Point& to) const override;
 
-  // Point of the surface nearest to a position, if nearer than `reach` [m].
-  [[nodiscard]] std::optional<Vector<double, 3>> nearest(const Vector<double, 3>& position, double reach) const;
-
  private:
-  // Summary of the points of a rectangle.
-  struct Summary {
-    double lowest = HUGE_VAL, highest = -HUGE_VAL;
-    bool known = true;  // all have data
-
-    void add(const Summary& other);
-  };
-  // Columns or rows of cells, or of points; both ends are included.
+  // Columns or rows of cells; both ends are included.
   struct Span {
     int first, last;
   };
@@ -80,19 +58,11 @@ class HeightField final : public Surface<3> {
   template <class Visit>
   void for_triangles(const Point& from, const Point& to, const Visit& visit) const;
 
-  [[nodiscard]] Summary summary_of_points(Span columns, Span rows) const;
-  [[nodiscard]] Summary summary_one_by_one(Span columns, Span rows) const;
-  // Summary of the points of all cells that overlap a rectangle.
-  [[nodiscard]] Summary summary(const Point& from, const Point& to) const;
-  void summarize_blocks();
+  // Number of points without data with a smaller column and a smaller row.
+  [[nodiscard]] int no_data_before(int column, int row) const;
 
-  // Squared distance [m2] to the bounding box of a cell of the DEM: a lower bound of that to its ground.
-  [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;
-  void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes) const;
-
-  Raster points_;                       // without no-data points
-  std::vector<bool> no_data_;           // by point; empty if all have data
-  std::vector<Summary> block_summary_;  // by blocks of points
+  Raster points_;                    // without no-data points
+  std::vector<int> no_data_before_;  // empty if all points have data
 };
 
 }  // namespace thawslide::terrain

@@ -27,8 +27,7 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<
       GroundOfMappedBack<Dim> below{touching, model.distance_check, nullptr, Real(0)};
       if (touching) {
         below.normal = &ground->block(b)[k].normal;
-        below.clearance = clearance_along_normal<Dim>(grid.mapping(), *below.normal,
-                                                      nodes.near_ground(b, k)[mpm::NearGround::clearance]);
+        below.clearance = clearance_along_normal(*below.normal, nodes.near_ground(b, k)[mpm::NearGround::clearance]);
       }
       work += map_back<Dim>(mpm::NodeConstraints<Dim>{on_block, k}, below, gravity, dt, record, nodes.motion(b, k),
                             nodes.velocity(b, k));

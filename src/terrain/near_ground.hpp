@@ -8,14 +8,11 @@
 
 namespace thawslide::terrain {
 
-// Sets particles.contact_offset [m], the distance from nodal planes at which a particle touches the ground, for
-// particles at memory index `first` and above. The lowest particles of a body that rests on the ground at the start
-// touch at their initial distance, which varies on a slope across the grid. Other particles touch with the edge of
-// their box, in the initial direction of the ground below them. On cells that follow the ground, distances are
-// vertical.
+// Sets particles.contact_offset [m], the height at which a particle touches the ground, for particles at memory index
+// `first` and above. The lowest particles of a body that rests on the ground at the start touch at their initial
+// height. Other particles touch with the lower side of their box. sizes: half sizes of particles, in cells.
 template <int Dim>
-void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                        const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first = 0);
+void set_contact_offset(const mpm::BodySizes& sizes, Real cell, mpm::Particles<Dim>& particles, std::size_t first = 0);
 
 // Fills nodes.near_ground of candidate nodes (other nodes of their blocks are undefined): the sums, and the clearance
 // [m], the smallest gap between the node's plane and the particles in reach (mpm/records.hpp); 0 or less at contact. A

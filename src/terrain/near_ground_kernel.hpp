@@ -1,8 +1,6 @@
 // Particle kernels (mpm/kernel.hpp) of near_ground_to_grid and clearance_to_grid.
 #pragma once
 
-#include <limits>
-
 #include "base/select.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
@@ -20,16 +18,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(con
   return physics::effective_solid_fraction(phases, porosity.load(at), saturation.load(at));
 }
 
-// Reduces the clearance of nodes near the ground to the minimum: the distance from the node's plane or, on cells that
-// follow the ground, the larger of the height above the ground and the vertical distance from the plane, both of the
-// lower side of the particle.
+// Reduces the clearance of nodes near the ground to the minimum: the larger of the height above the ground and the
+// vertical distance from the node's plane, both of the lower side of the particle.
 template <int Dim>
 struct LowerClearance {
   using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::Clearance>;
   using Totals = mpm::NoTotals;
-
-  bool follows_ground = false;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
@@ -37,13 +32,9 @@ struct LowerClearance {
     auto& gaps = added.template of<mpm::Clearance>();
     unrolled<static_cast<std::size_t>(Dim)>(
         [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.position[a] = particles.position.load(at, static_cast<int>(a())); });
-    gaps.reach = particles.contact_offset.load(at);
-    gaps.least = std::numeric_limits<Real>::lowest();
-    if (follows_ground) {
-      gaps.least = particles.height_above_ground.load(at) - gaps.reach;
-      gaps.position[Dim - 1] -= gaps.reach;
-      gaps.reach = Real(0);
-    }
+    const auto offset = particles.contact_offset.load(at);
+    gaps.position[Dim - 1] -= offset;
+    gaps.least = particles.height_above_ground.load(at) - offset;
     gaps.planes = seen.template planes<mpm::Planes>();
   }
 };
@@ -58,8 +49,6 @@ struct AddNearGround {
 
   physics::Phases phases;
   bool lubrication;  // off: the solid fraction uses the initial porosity and saturation
-  bool follows_ground = false;
-
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
                                                        Scatter& added, Totals& totals) const {
@@ -78,7 +67,7 @@ struct AddNearGround {
     constexpr std::size_t first = mpm::first_in_register<NearGroundByLinear, Dim>;
     by_linear.value[NearGround::saturation_by_linear - first] = volume * saturation;
     by_linear.value[NearGround::solid_fraction_by_linear - first] = volume * solid_fraction;
-    LowerClearance<Dim>{follows_ground}(particles, at, seen, added, totals);
+    LowerClearance<Dim>{}(particles, at, seen, added, totals);
   }
 };
 

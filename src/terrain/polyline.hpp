@@ -16,25 +16,8 @@ class Polyline {
   [[nodiscard]] double height(double x) const;
   // dh/dx of the segment that contains x.
   [[nodiscard]] double gradient(double x) const;
-  // Highest point over [from, to], and largest |dh/dx| of the segments there.
-  [[nodiscard]] double highest(double from, double to) const;
+  // Largest |dh/dx| of the segments over [from, to].
   [[nodiscard]] double steepest(double from, double to) const;
-
-  struct Nearest {
-    double distance;           // [m], positive above the ground
-    Vector<double, 2> normal;  // unit vector from above into the ground
-  };
-  [[nodiscard]] Nearest nearest(double x, double height) const;
-
-  // Integrals over the ground of a node's linear shape function S of half-width `cell`, centred at (x, height). Exact
-  // for a polyline.
-  struct LinearFraction {
-    double length = 0;                                        // B = integral of S along the ground [m]
-    double above = 0;                                         // integral of S over the space above it [m2]
-    Vector<double, 2> resultant = Vector<double, 2>::Zero();  // G = integral of S n, n from above into it [m]
-    Vector<double, 2> moment = Vector<double, 2>::Zero();     // integral of S (place - node) along it [m2]
-  };
-  [[nodiscard]] LinearFraction linear_fraction(double x, double height, double cell) const;
 
   // Means over the hat function max(0, 1 - |u - x|/cell): height [m], and length of the ground per horizontal length.
   // Exact for a polyline.

@@ -2,34 +2,16 @@
 // [m]; the vertical is the last axis.
 #pragma once
 
-#include <array>
 #include <cmath>
 
 #include "base/linear.hpp"
 
 namespace thawslide::terrain {
 
-// Ground at a node, computed once.
-template <int Dim>
-struct GroundAtNode {
-  bool candidate = false;    // the node's linear shape function overlaps the ground
-  int substrate = 0;         // below the node (substrates.hpp)
-  Vector<Real, Dim> normal;  // unit vector from the sliding mass into the ground, along G = integral of S n dA
-  Real area = 0;         // B = integral of the shape function S over the ground's surface [m2]; sums to that surface
-  Real bend = 1;         // B/|G|: 1 on a plane, larger where the ground bends within reach of the node
-  Real plane = 0;        // c.n with c = integral of x S dA / B: places x with x.n = c.n are the node's plane [m];
-                         // infinite unless the node is a candidate
-  Real space = 0;        // integral of the shape function over the space above the ground [m3]
-  Real distance = 0;     // from the ground, positive above it [m]
-  Real elevation = 0;    // of the node, only on cells that follow the ground [m]
-  Real plane_scale = 1;  // factor of both sides of x.n = c.n; `plane` includes it (terrain/following_ground.hpp)
-};
-
 template <int Dim>
 class Surface {
  public:
   using Point = Vector<double, Dim - 1>;  // x in 2D; x, y in 3D
-  using NodeIndex = std::array<int, Dim>;
 
   Surface() = default;
   virtual ~Surface() = default;
@@ -40,9 +22,6 @@ class Surface {
   [[nodiscard]] virtual double height(const Point& point) const = 0;
   // Gradient at a place; on a surface of finer detail, its mean over a square of side `width` [m].
   [[nodiscard]] virtual Point gradient(const Point& point, double width) const = 0;
-  // Highest elevation over the rectangle between two places [m].
-  [[nodiscard]] virtual double highest(const Point& from, const Point& to) const = 0;
-
   // Upper bound of the slope over the rectangle between two places, as a gradient.
   [[nodiscard]] virtual double steepest(const Point& from, const Point& to) const = 0;
 
@@ -52,10 +31,6 @@ class Surface {
     double height, area;
   };
   [[nodiscard]] virtual ColumnMeans column_means(const Point& at, double cell) const = 0;
-
-  // Fills the ground data of the `edge`^Dim nodes of a block, x fastest. first: index of its first node along each axis
-  // of a grid with cells of side `cell` [m].
-  virtual void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const = 0;
 
   // True if the ground is known at a place, or everywhere in the rectangle between two places. On unknown ground, the
   // other functions extrapolate.

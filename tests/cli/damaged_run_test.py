@@ -180,7 +180,6 @@ def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path)
 def test_missing_maps_of_the_terrain_are_written_again(ran: Ran, thawslide: Program) -> None:
     words = sets(
         grid__cell=60,
-        grid__follows_terrain="true",
         time__stepping='"adaptive"',
         time__end=0.1,
         time__output_interval=0.1,

@@ -15,7 +15,7 @@ sys.path.append(str(ROOT))
 from reproduction.studies import refinement
 from reproduction.study import Job, Place
 
-FOLLOWING = ("grid.follows_terrain=true", 'time.stepping="adaptive"', "maps.cell=20")
+FOLLOWING = ('time.stepping="adaptive"', "maps.cell=20")
 # Transfer, cell [m], and the largest deviations of deposit area, affected area and travel, and of the growth of the
 # volume.
 BOUNDS = [

@@ -25,7 +25,7 @@ a key left out
 a key in the wrong table
   elevation = 0.0 -> elevation = 0.0|porosity = 0.3
     18:1: key 'terrain.porosity' is not known in [terrain]; it belongs in [body.NAME] or [bed]. Allowed here: type,
-    elevation, slope, file, extend, representation, layers, crs, resample, smooth.
+    elevation, slope, file, extend, crs, resample, smooth.
 
 a number in quotes
   end = 0.2 -> end = "0.2"

@@ -40,10 +40,28 @@ def test_absent_cases_and_empty_files_are_refused(thawslide: Program, small_case
 
 def test_a_former_key_is_accepted_with_a_note(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
-    file.write_text(SMALL_CASE.replace("elevation = 0.0", 'elevation = 0.0\ndescription = "rigid_points"'))
-    line = file.read_text().splitlines().index('description = "rigid_points"') + 1
-    note = f"note: {file}:{line}:15: key 'terrain.description' is called 'terrain.representation' now\n"
-    assert note in thawslide.ok("check", small_case, *sets(grid__follows_terrain="false"))
+    text = SMALL_CASE + '[mechanics]\ntransfer = "blend"\npic_share = 0.25\n'
+    file.write_text(text)
+    line = text.splitlines().index("pic_share = 0.25") + 1
+    note = f"note: {file}:{line}:13: key 'mechanics.pic_share' is called 'mechanics.pic_fraction' now\n"
+    assert note in thawslide.ok("check", small_case)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "reason"),
+    [
+        ("grid.follows_terrain", "false", "cells always follow the terrain"),
+        ("terrain.representation", '"rigid_points"', "the ground is always a line or surface"),
+        ("terrain.layers", "3", "the ground is always a line or surface"),
+        ("band.cut_cells", '"equal_thickness"', "the ground no longer cuts cells"),
+    ],
+)
+def test_a_removed_key_is_refused_with_the_reason(
+    thawslide: Program, small_case: Path, key: str, value: str, reason: str
+) -> None:
+    table = key.split(".", maxsplit=1)[0]
+    message = f"key '{key}' is not known in [{table}]; it was removed, because {reason}. Allowed here: "
+    assert message in thawslide.error("check", small_case, "--set", f"{key}={value}")
 
 
 def test_lamplugh_in_a_domain_that_ends_inside_the_body_is_refused(thawslide: Program, tmp_path: Path) -> None:

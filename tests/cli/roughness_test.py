@@ -58,7 +58,6 @@ def test_a_filter_narrower_than_a_cell_that_follows_the_terrain_is_noted(thawsli
     (note,) = notes(*sets(terrain__smooth=9.5))
     assert note.startswith("note: terrain.smooth is 9.5 m and grid.cell 10 m: cells larger than the filter")
     assert notes(*sets(terrain__smooth=10)) == []
-    assert notes(*sets(terrain__smooth=9.5, grid__follows_terrain="false")) == []
 
 
 def test_new_does_not_change_the_dem(rough_case: Path) -> None:
@@ -94,8 +93,6 @@ def test_unfiltered_noise_has_a_warning(thawslide: Program, rough_case: Path) ->
     for words in (sets(terrain__smooth=20), sets(terrain__smooth=30)):
         smooth = thawslide.json("check", rough_case, *words)
         assert not [note for note in smooth["warnings"] if note.startswith("terrain.smooth: ")]
-    wide = thawslide.json("check", rough_case, *sets(terrain__smooth=30, grid__follows_terrain="false"))
-    assert any("a filter of 30 m removes terrain" in note for note in wide["warnings"])
 
 
 def test_clean_ground_is_not_smoothed(thawslide: Program, tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ PLANE = "terrain.type=plane band.model=scaled case.gravity_tilt=0"
 VALUES: dict[str, tuple[float, str, dict[str, object]]] = {
     "case.gravity": (9.81, "", {"ft/s2": 3.2808, "cm/s2": 100.0}), "case.gravity_tilt": (30.0, "", {}),
     "terrain.slope": (30.0, f"{PLANE} body.block.min=[0,10] body.block.max=[50,40]", {}),
-    "grid.steepest": (65.0, f"grid.follows_terrain=true time.stepping=adaptive {PLANE}", {}),
+    "grid.steepest": (65.0, f"time.stepping=adaptive {PLANE}", {}),
     "time.step": (0.001, "", TIMES), "time.stop_at_rest": (0.05, "", SPEEDS),
     "checkpoint.wall_interval": (600.0, "", TIMES),
     "phases.rock_density": (2750.0, "", {}), "phases.ice_density": (917.0, "", {}),

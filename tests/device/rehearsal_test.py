@@ -25,7 +25,6 @@ SMALL = {
     "incline": (CASES / "incline" / "DLP.toml", ("time.end=0.2",)),
     "entrainment": (CASES / "entrainment", ("time.end=4",)),
     "valley3d": (CASES / "valley3d", ("grid.cell=60", "time.end=1.2")),
-    "valley3d-following": (CASES / "valley3d", ("grid.cell=60", "grid.follows_terrain=true", "time.end=1.2")),
     "valley3d-columns": (CASES / "valley3d" / "columns.toml", ("grid.cell=60", "time.end=1.2")),
 }
 # Of each column of the history, relative to the maximum value of its unit. The slide amplifies round-off, here to

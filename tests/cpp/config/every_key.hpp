@@ -15,12 +15,11 @@ inline const std::string every_key = one_key_per_line(R"(
 [case] title = "Every \"key\"" | width = 12.5 | gravity = 9.75 | gravity_tilt = -1.5
 [time] end = 4.5 | stepping = "adaptive" | step = 0.25 | safety = 0.5 | output_interval = 1.5 |
   history_interval = 0.125 | stop_at_rest = 0.0625 | rest_time = 5.0 | moved_distance = 0.5
-[grid] cell = 2.5 | min = [-5.0, -10.0] | max = [95.0, 40.0] | leaving = "remove" | follows_terrain = false
-[grid.boundary] x_min = "fixed" | x_max = "roller" | y_min = "roller" | y_max = "fixed"
+[grid] cell = 2.5 | min = [-5.0, -10.0] | max = [95.0, 40.0] | leaving = "remove" | steepest = 70.0
+[grid.boundary] x_min = "fixed" | x_max = "roller"
 [guards] not_finite = "remove" | volume = "remove" | smallest_volume = 0.125 | largest_volume = 20.0 |
   removed_mass = 0.0625 | energy_growth = 0.5 | smallest_step = 0.25 | most_steps = 1000000.0
-[terrain] type = "profile" | elevation = -1.0 | file = "inputs/profile.csv" | extend = true |
-  representation = "rigid_points" | layers = 3
+[terrain] type = "profile" | elevation = -1.0 | file = "inputs/profile.csv" | extend = true
 [checkpoint] wall_interval = 60.0 | interval = 3.0
 [report] times = [1.0, 2.5] | targets = "inputs/targets.csv" | force_record = "inputs/force.csv" |
   force_periods = [10.0, 200.0] | force_source = "a survey"
@@ -38,7 +37,6 @@ inline const std::string every_key = one_key_per_line(R"(
   vertices = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0]] | particles_per_axis = 3 |
   temperature = { depth = [0.0, 5.0], value = [-1.0, -2.0] } | porosity = { x = [0.0, 40.0], value = [0.3, 0.4] } |
   velocity = [1.5, -0.5]
-[frame.wall] min = [50.0, 0.0] | max = [60.0, 9.0] | axis = "y" | velocity = 2.25
 [initial] noise = 0.125 | seed = 7
 [mechanics] enabled = false | shape_function = "quadratic" | transfer = "blend" | pic_fraction = 0.125 |
   initial_stress = "settle" | k0 = 0.4 | effective_stress = true | settle_time = 6.0 | settle_damping = 7.0 |
@@ -54,11 +52,10 @@ inline const std::string every_key = one_key_per_line(R"(
   depth_per_slip = 0.125 | material = "rock" | temperature = -2.5 | porosity = 0.75 | particles_per_axis = 4
 [mechanisms] deformation = false | lubrication = false | pressurization = false
 [band] thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] } | region = "first_layer" |
-  cut_cells = "equal_thickness" | thickness_change = "as_published"
+  thickness_change = "as_published"
 [heat] enabled = false | update = "apparent_capacity" | masses = "current" | latent = false | steam = false |
   conduction = false | advection = false | advection_form = "as_published"
-[heat.boundary] x_min = { temperature = -6.0 } | x_max = { flux = 12.5 } | y_min = { temperature = -7.0 } |
-  y_max = { flux = -2.0 }
+[heat.boundary] x_min = { temperature = -6.0 } | x_max = { flux = 12.5 }
 [pressure] thermal_pressurization = false | clapeyron = "published" | volumetric_term = true |
   frozen = "ice_pressure" | melt_contraction = false | skeleton_compressibility = 0.001 | seepage = false |
   column_top = "sealed" | water_to_steam_viscosity = 20.0 | frozen_rows = "vented" | seepage_scaling = "published" |
@@ -69,8 +66,8 @@ inline const std::string every_key = one_key_per_line(R"(
 inline const std::string rest_in_3d = one_key_per_line(R"(
 [case] dimension = 3
 [time] end = 4.5 | step = 0.25
-[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0] | follows_terrain = false
-[grid.boundary] z_min = "fixed" | z_max = "roller"
+[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0]
+[grid.boundary] y_min = "roller" | y_max = "fixed"
 [terrain] type = "plane" | slope = 5.0
 [material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25 | softening_slip = 0.75
 [probe.gauge] point = [12.5, -3.0]
@@ -82,11 +79,23 @@ inline const std::string rest_in_3d = one_key_per_line(R"(
 [pressure] enabled = false | residual_stress = 20000.0
 )");
 
+// No terrain, which excludes these.
+inline const std::string between_walls = one_key_per_line(R"(
+[case] dimension = 3
+[time] end = 4.5 | step = 0.25
+[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0]
+[grid.boundary] z_min = "fixed" | z_max = "roller"
+[material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25
+[body.block] material = "rock" | min = [0.0, 0.0, 1.0] | max = [40.0, 5.0, 20.0]
+[frame.wall] min = [50.0, 0.0, 0.0] | max = [60.0, 9.0, 9.0] | axis = "y" | velocity = 2.25
+[heat.boundary] z_min = { temperature = -8.0 } | z_max = { flux = 3.5 }
+)");
+
 // A release on a DEM, with all fields from maps.
 inline const std::string release_on_dem = one_key_per_line(R"(
 [case] dimension = 3
 [time] end = 4.5 | step = 0.25
-[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0] | follows_terrain = false
+[grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0]
 [terrain] type = "dem" | file = "inputs/dem.tif" | crs = "EPSG:31287" | resample = 10.0 | smooth = 2.5
 [maps] cell = 20.0 | arrival_thickness = 0.5 | path = "inputs/path.geojson"
 [probe.gauge] line = "inputs/section.geojson"
@@ -98,7 +107,7 @@ inline const std::string release_on_dem = one_key_per_line(R"(
 [basal] friction_angle = 25.0
 [substrate.ice] outline = "inputs/release.shp" | polygons = ["glacier"] | name_attribute = "kind" |
   friction = "voellmy" | friction_coefficient = 0.125 | turbulent_friction = 250.0
-[heat.boundary] z_min = { temperature = -8.0 } | z_max = { flux = 3.5 }
+[heat.boundary] y_min = { temperature = -7.0 } | y_max = { flux = -2.0 }
 [body.upper] material = "rock" | shape = "release" | release = "inputs/release.shp" | polygons = ["upper"] |
   thickness = 5.0
 [contact] between_bodies = "frictional" | friction_angle = 25.0
@@ -111,9 +120,8 @@ inline std::string release_of_a_surface() {
   std::string text =
       changed({{"outline = \"inputs/release.shp\"\npolygons = [\"glacier\"]\nname_attribute = \"kind\"\n",
                 "raster = \"inputs/codes.tif\"\ncode = 3\n"},
-               {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
-                "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"},
-               {"follows_terrain = false", "follows_terrain = true\nsteepest = 70.0"}},
+               {"[heat.boundary]\ny_min = { temperature = -7.0 }\ny_max = { flux = -2.0 }\n",
+                "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"}},
               release_on_dem);
   text.resize(text.find("[contact]"));  // refused with columns
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");

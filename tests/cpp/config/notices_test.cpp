@@ -70,11 +70,10 @@ TEST(Notices, NameTheNewKeywordsOfFormerOnes) {
 
 TEST(Notices, NameTheNewKeyOfAFormerOne) {
   const Case found =
-      testing_support::case_from_text(changed({}), {"grid.follows_terrain=false", "terrain.description=rigid_points"});
-  EXPECT_EQ(found.terrain.form, TerrainForm::rigid_points);
+      testing_support::case_from_text(changed({}), {"mechanics.transfer=blend", "mechanics.pic_share=0.25"});
+  EXPECT_EQ(found.mechanics.pic_fraction, 0.25);
   EXPECT_EQ(notices_without_folder(found).at(0),
-            "note: --set terrain.description=rigid_points: key 'terrain.description' is called "
-            "'terrain.representation' now");
+            "note: --set mechanics.pic_share=0.25: key 'mechanics.pic_share' is called 'mechanics.pic_fraction' now");
 }
 
 TEST(Notices, ListTheDefaultsThatHaveChangedSinceEarlierVersions) {

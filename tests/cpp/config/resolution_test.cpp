@@ -39,7 +39,7 @@ TEST(Resolution, WarnsOfTooFewParticlesAndForMapsOfTooFewCells) {
     for (const int particles : {1, 2, 4}) {
       for (int tenths = 2; tenths <= 120; ++tenths) {
         const double cell = 10.0 * thickness / tenths;
-        const bool lacks_particles = tenths * particles < 40, lacks_cells = tenths < 80;
+        const bool lacks_particles = tenths * particles < 40, lacks_cells = tenths < 40;
         const std::string plain = resolution_warning(body_on(thickness, cell, particles, false), "grid.cell");
         const std::string maps = resolution_warning(body_on(thickness, cell, particles, true), "grid.cell");
         EXPECT_EQ(plain.empty(), !lacks_particles) << plain;
@@ -78,32 +78,24 @@ TEST(Resolution, WarningsStateTheFoundAndNeededNumbersAndTheCost) {
   EXPECT_EQ(
       resolution_warning(body_on(24.0, 8.0, 2, true), "grid.cell"),
       "grid.cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
-      "area (found 3; needed 8). Set grid.cell to 3 m, at about 51 times the run time. Travel distance and speed need "
-      "2 to 4. With grid.follows_terrain = true, maps need 4.");
-  BodyOnCells following = body_on(24.0, 8.0, 2, true);
-  following.follow_terrain = true;
-  EXPECT_EQ(
-      resolution_warning(following, "--cell"),
-      "--cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
-      "area (found 3; needed 4). Set --cell to 6 m, at about 3.2 times the run time. Travel distance and speed need "
+      "area (found 3; needed 4). Set grid.cell to 6 m, at about 3.2 times the run time. Travel distance and speed need "
       "2.");
   EXPECT_EQ(
       resolution_warning(body_on(24.0, 30.0, 2, true), "grid.cell"),
       "grid.cell: across the median thickness of body slide, 24 m, there are too few particles to resolve shear "
-      "and thinning (found 1.6; needed 4), and too few cells for maps of thickness and area (found 0.8; needed 8). "
-      "Set grid.cell to 12 m, at about 39 times the run time, or for maps to 3 m, at about 10,000 times the run "
-      "time.");
+      "and thinning (found 1.6; needed 4), and too few cells for maps of thickness and area (found 0.8; needed 4). "
+      "Set grid.cell to 12 m, at about 39 times the run time, or for maps to 6 m, at about 630 times the run time.");
   EXPECT_EQ(resolution_warning(body_on(1.5, 1.0, 2, false, 2), "grid.cell", {20.0, 10.0}),
             "grid.cell: across the median thickness of body slide, 1.5 m, there are too few particles to resolve shear "
             "and thinning (found 3; needed 4). Set grid.cell to 0.5 m, at about 8 times the run time.");
 }
 
 TEST(Resolution, ANumberThatIsTooSmallIsRoundedDown) {
-  EXPECT_NE(resolution_warning(body_on(7.99, 1.0, 2, true), "grid.cell").find("(found 7.9; needed 8)"),
+  EXPECT_NE(resolution_warning(body_on(3.99, 1.0, 2, true), "grid.cell").find("(found 3.9; needed 4)"),
             std::string::npos);
   EXPECT_NE(resolution_warning(body_on(3.99, 1.0, 1, false), "grid.cell").find("(found 3.9; needed 4)"),
             std::string::npos);
-  EXPECT_EQ(resolution_warning(body_on(8.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
+  EXPECT_EQ(resolution_warning(body_on(4.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
 }
 
 TEST(Resolution, RunTimeIsProportionalToCellsAndSteps) {
@@ -131,7 +123,6 @@ TEST(Resolution, MapsAreRequestedByTheirCellOrTheirMinimumThickness) {
 TEST(Resolution, TheCommentOfACaseAgreesWithTheWarning) {
   for (const double cell : {30.0, 12.0, 8.0, 6.1}) {
     BodyOnCells body = body_on(24.0, cell, 2, true);
-    body.follow_terrain = true;
     const std::string comment = maps_comment(body), warning = resolution_warning(body, "--cell");
     EXPECT_NE(comment.find("cells of 6 m (`thawslide new --resolution standard`), at about"), std::string::npos)
         << comment;
@@ -139,7 +130,6 @@ TEST(Resolution, TheCommentOfACaseAgreesWithTheWarning) {
     EXPECT_NE(warning.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << warning;
   }
   BodyOnCells fine = body_on(24.0, 6.0, 2, true);
-  fine.follow_terrain = true;
   EXPECT_EQ(maps_comment(fine), "");
 }
 
@@ -163,8 +153,8 @@ TEST(Resolution, HasTheCellsNeededForItsResults) {
       const double standard = cell_of(Resolution::standard, thickness, median, particles);
       EXPECT_GE(thickness / quick * particles, fewest_particles * (1.0 - 1e-9));
       EXPECT_LT(thickness / quick * particles, 1.4 * fewest_particles) << "not much finer than needed";
-      EXPECT_GE(median / standard, cells_for_maps(true) * (1.0 - 1e-9));
-      EXPECT_LT(median / standard, 1.4 * cells_for_maps(true));
+      EXPECT_GE(median / standard, cells_for_maps * (1.0 - 1e-9));
+      EXPECT_LT(median / standard, 1.4 * cells_for_maps);
       EXPECT_EQ(cell_of(Resolution::fine, thickness, median, particles), 0.5 * standard);
     }
   }
@@ -173,8 +163,7 @@ TEST(Resolution, HasTheCellsNeededForItsResults) {
 TEST(Resolution, StandardCausesNoWarningAboutMaps) {
   for (const double thickness : {1.3, 10.0, 24.0, 31.0}) {
     const double cell = cell_of(Resolution::standard, thickness, thickness, 2);
-    const BodyOnCells body{
-        .name = "slide", .thickness = thickness, .cell = cell, .has_maps = true, .follow_terrain = true};
+    const BodyOnCells body{.name = "slide", .thickness = thickness, .cell = cell, .has_maps = true};
     EXPECT_EQ(resolution_warning(body, "--cell"), "");
   }
 }

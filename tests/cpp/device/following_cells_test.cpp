@@ -23,9 +23,8 @@ config::Site site_of_bumps() {
 
 template <int Dim>
 config::Case on_bumps(const Sets& more) {
-  const Sets following = "grid.follows_terrain=true";
   if (Dim == 3) {
-    return sliding_bodies<Dim>(following + on_dem() + more);
+    return sliding_bodies<Dim>(on_dem() + more);
   }
   const auto name = folder_of_this_test() / "profile.csv";
   std::string text = "distance_m,terrain_elevation_m\n";
@@ -33,7 +32,7 @@ config::Case on_bumps(const Sets& more) {
     text += fmt::format("{},{}\n", 0.5 * k, bumps(0.5 * k, 0.0));
   }
   std::ofstream(name) << text;
-  return sliding_bodies<Dim>(following + Sets("terrain.type=profile; terrain.file=" + name.string()) + more);
+  return sliding_bodies<Dim>(Sets("terrain.type=profile; terrain.file=" + name.string()) + more);
 }
 
 template <int Dim>
@@ -42,7 +41,7 @@ int expect_the_same_run_on_bumps(const Sets& more, int steps) {
 }
 
 TEST(DeviceFollowingCells, GiveTheParticlesOfTheCpu) {
-  const Sets plane = "grid.follows_terrain=true; terrain.type=plane; terrain.slope=10; terrain.elevation=-0.2";
+  const Sets plane = "terrain.type=plane; terrain.slope=10; terrain.elevation=-0.2";
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(plane), 45), 0);
   EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(plane), 15), 0);
   EXPECT_EQ(expect_the_same_run_on_bumps<2>({}, 75), 0);

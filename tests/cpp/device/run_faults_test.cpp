@@ -114,8 +114,6 @@ TEST(DeviceRun, ContinuesFromACheckpoint) {
 // Each refusal names the option as written in a case.
 TEST(DeviceRun, RefusesOptionsThatAreNotSupportedOnAGpu) {
   const std::pair<std::vector<std::string>, std::string> options[] = {
-      {{"grid.follows_terrain=false", "terrain.representation=\"rigid_points\""},
-       "terrain.representation = \"rigid_points\""},
       {{"contact.between_bodies=frictional", "contact.friction_angle=20.0"},
        "frictional contact between bodies ([contact])"},
       {{"heat.update=\"apparent_capacity\""}, "heat.update = \"apparent_capacity\""},

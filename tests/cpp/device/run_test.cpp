@@ -34,7 +34,7 @@ void expect_the_same_with_every_choice(int steps) {
       {at_face, "heat.boundary.x_min={temperature=3.0}"},
       {at_face, "heat.boundary.x_min={flux=400.0}"},
       {at_face, "heat.boundary.x_min={temperature=3.0}", "mechanics.enabled=false"},
-      {"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"},
+      {"band.region=first_layer"},
       {"band.region=first_layer", "heat.enabled=false"},
       {"band.region=first_layer", "pressure.enabled=false", "heat.enabled=false"}};
   for (const std::vector<std::string>& sets : choices) {
@@ -141,11 +141,9 @@ TEST(DeviceRun, StaysOnKnownGround) {
   EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
   const config::Case loaded = sliding_bodies<3>(on_dem() + "pressure.frozen=none");  // computes the load of particles
   EXPECT_EQ(expect_the_same_run<3>(loaded, 12, bumpy_site(40.0)), 0);
-  const config::Case by_layer =
-      sliding_bodies<3>(on_dem() +
-                        "band.region=first_layer; band.cut_cells=equal_thickness; body.right.particles_per_axis=2; "
-                        "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}");
-  EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
+  const config::Case by_slope =
+      sliding_bodies<3>(on_dem() + "band.region=first_layer; band.thickness={time=[0.0,0.01],value=[0.1,0.2]}");
+  EXPECT_EQ(expect_the_same_run<3>(by_slope, 12, bumpy_site(40.0)), 0);
   std::vector<std::string> messages;
   for (const bool on_device : {false, true}) {
     Simulation<3> simulation(parameters, bumpy_site(8.0));
@@ -196,15 +194,14 @@ void expect_the_same_map(const MapKind& kind, const FlowMaps& found, const FlowM
   }
 }
 
-// Maps with cells as wide as those of the grid, with narrower and wider ones, with band columns, and on cells that
-// follow the ground.
+// Maps with cells as wide as those of the grid, with narrower and wider ones, with band columns, and on a plane.
 TEST(DeviceRun, RecordsTheMapsOfTheCpu) {
   const std::vector<std::vector<std::string>> choices{
       {"maps.arrival_thickness=0.1"},
       {"maps.cell=0.6"},
       {"maps.cell=2.7"},
       on_columns,
-      {"grid.follows_terrain=true", "terrain.type=plane", "terrain.slope=10", "terrain.elevation=-0.2"},
+      {"terrain.type=plane", "terrain.slope=10", "terrain.elevation=-0.2"},
       {"grid.leaving=remove", "grid.max=[8.0,10.0,18.0]"}};
   for (const std::vector<std::string>& sets : choices) {
     SCOPED_TRACE(sets.front());

@@ -107,8 +107,6 @@ std::vector<Choice> choices() {
       {"noise", "initial.noise=0.2"},
       {"a moving frame", frame<Dim>()},
       {"sides", {"grid.boundary.x_max=roller", "grid.boundary.x_min=fixed", near_front}},
-      {"rigid points", "grid.follows_terrain=false; terrain.representation=rigid_points"},
-      {"rigid points of a plane", "grid.follows_terrain=false; terrain.representation=rigid_points" + plane},
       {"distance unchecked", "basal.distance_check=false" + plane},
       {"cohesion lost by slip",
        "basal.cohesion=1e4; basal.cohesion_law=slip; basal.slip_distance=2.0; basal.clamp=joint"},
@@ -122,7 +120,6 @@ std::vector<Choice> choices() {
        "contact.between_bodies=frictional; contact.friction_angle=20.0; mechanics.transfer=apic" + plane},
       {"the first layer", "band.region=first_layer"},
       {"the first layer above a plane", "band.region=first_layer" + plane},
-      {"cut cells", "band.cut_cells=equal_thickness; body.right.particles_per_axis=2" + plane},
       {"a band that thickens", "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"},
       {"melting", "body.left.temperature=-1e-6", melts},
       {"freezing along a line", "freezing.curve=linear; freezing.slope=0.5"},
@@ -147,9 +144,7 @@ std::vector<Choice> choices() {
   };
   if (Dim == 3) {
     all.push_back({"a DEM", on_dem()});
-    all.push_back(
-        {"a DEM, the first layer, cut cells",
-         "band.region=first_layer; band.cut_cells=equal_thickness; body.right.particles_per_axis=2" + on_dem()});
+    all.push_back({"a DEM, the first layer", "band.region=first_layer" + on_dem()});
   }
   return all;
 }

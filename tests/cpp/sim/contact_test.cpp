@@ -114,7 +114,7 @@ TEST(Walls, ApplyWhereTheyMeetTheGround) {
 TEST(ContactArea, OfAHoveringSlabIsItsBase) {
   Simulation<2> simulation(
       paper_case(cornered,
-                 "case.gravity_tilt=0; grid.follows_terrain=false; grid.boundary.x_min=open; terrain.elevation=-2.5; "
+                 "case.gravity_tilt=0; grid.boundary.x_min=open; terrain.elevation=-2.5; "
                  "body.block.min=[20,0]; "
                  "body.block.max=[60,20]; body.block.velocity=[10,0]; basal.friction_angle=0; "
                  "basal.cohesion=1e4; basal.cohesion_law=constant; mechanics.initial_stress=settle; "

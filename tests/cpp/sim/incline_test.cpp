@@ -138,14 +138,6 @@ TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
   EXPECT_LT(slide<3>(stairs(), "basal.friction_angle=50").velocity, 0.05 * slide<3>(stairs()).velocity);
 }
 
-// The ground of rigid points, as in the paper: the same with tilted gravity; on a plane across the grid it is rough.
-TEST(Incline, SlidesOnRigidPoints) {
-  expect_slide("rigid points, 2D",
-               slide<2>(turned_2d, {"grid.follows_terrain=false; terrain.representation=rigid_points"}), 15.0, 2e-3);
-  expect_slide("rigid points, 3D",
-               slide<3>(turned_3d, {"grid.follows_terrain=false; terrain.representation=rigid_points"}), 15.0, 5e-3);
-}
-
 TEST(FreeFall, KeepsMomentumToRoundOff) {
   const Sets thrown =
       "case.gravity=9.81; time.step=0.001; grid.cell=5; grid.min=[0,-100]; grid.max=[60,100]; "

@@ -221,53 +221,5 @@ TEST(HeatMasses, CurrentOnesCreateHeatAndIceThatTheBudgetReports) {
   }
 }
 
-// A melted slab of 300 m that slides down a plane oblique to the grid; friction is the only source of heat.
-Variant tilted_slab(double slope, double elevation) {
-  const double fall = std::tan(slope * pi / 180.0);
-  const double height = 40.0 / std::cos(slope * pi / 180.0);
-  const double length = 300.0 * std::cos(slope * pi / 180.0);
-  return {"slab",
-          "time.end=0.2; time.step=0.004; grid.cell=5; grid.min=[-20,-320]; grid.max=[340,80]; terrain.type=plane; "
-          "material.rock.youngs_modulus=1e8; material.rock.hydraulic_conductivity=0; body.slab.shape=polygon; "
-          "body.slab.temperature=1; mechanics.slope_shear=true; basal.friction=constant; band.thickness=0.1; "
-          "heat.conduction=false; pressure.enabled=false; " +
-              fmt::format("terrain.slope={}; terrain.elevation={}; body.slab.vertices=[[0.0, {}], [{}, {}], [{}, "
-                          "{}], [0.0, {}]]; body.slab.velocity=[{}, {}]; basal.friction_angle={}",
-                          slope, elevation, elevation, length, elevation - fall * length, length,
-                          elevation - fall * length + height, elevation + height, std::cos(slope * pi / 180.0),
-                          -std::sin(slope * pi / 180.0), slope)};
-}
-
-// Heat input per area over the capacity and the mean temperature rise of the band, in units of e.
-double effective_thickness(const Variant& slab_on_plane, const std::string& cut_cells) {
-  Simulation<2> simulation(paper_case(slab_on_plane, "grid.follows_terrain=false; band.cut_cells=" + cut_cells));
-  run_until(simulation, 0.2);
-  const HistoryRow row = history_row(simulation);
-  const double heat = value_of(row, "friction_heat_J");
-  EXPECT_NEAR(value_of(row, "thermal_residual_J"), 0.0, 1e-9 * heat);
-  EXPECT_NEAR(value_of(row, "band_rescale_J"), 0.0, 1e-3 * (value_of(row, "sensible_J") + value_of(row, "latent_J")));
-  const double capacity = physics::heat_capacity(simulation.model().motion.phases, 0.375, 1.0);
-  return heat / 300.0 / (capacity * (value_of(row, "band_temperature_C") - 1.0)) / 0.1;
-}
-
-TEST(CutCells, BandIsAsThickAsAskedOnASlopeThroughTheGrid) {
-  verification::Record record(
-      "Thickness of the band on slopes through the grid",
-      "A melted slab of 300 m slides down a plane that cuts the grid, with band.cut_cells \"equal_thickness\" and "
-      "\"as_they_are\"; only friction heats it.",
-      "heat per area over C and the mean rise of the band is e", "docs/theory/band.md");
-  for (const double slope : {10.0, 26.565051177, 45.0}) {
-    for (const double elevation : {0.0, 1.85}) {
-      const Variant tilted = tilted_slab(slope, elevation);
-      const double remedied = effective_thickness(tilted, "equal_thickness");
-      const double as_they_are = effective_thickness(tilted, "as_they_are");
-      const std::string where = fmt::format("{:.1f} degrees, ground at {} m", slope, elevation);
-      record.expect_near("thickness over e, equal_thickness, " + where, remedied, 1.0, 0.05);
-      EXPECT_GT(as_they_are, 1.5) << where;
-    }
-  }
-  record.explain("As they are, cells that the ground cuts make the band 1.7 to 2.3 e thick.");
-}
-
 }  // namespace
 }  // namespace thawslide::sim

@@ -56,7 +56,7 @@ void expect_bits_of_one_width(const Sets& sets) {
 TEST(SectionWidth, OfAUniformTableIsBitwiseIdenticalToANumber) {
   expect_bits_of_one_width({});
   expect_bits_of_one_width("band.model=scaled; pressure.frozen_rows=vented");
-  expect_bits_of_one_width("mechanics.transfer=apic; grid.follows_terrain=false; terrain.representation=rigid_points");
+  expect_bits_of_one_width("mechanics.transfer=apic");
 }
 
 // Elastic material under its weight between sides of the domain, in a section that widens, narrows and widens again.
@@ -221,7 +221,7 @@ TEST(SectionWidth, ConservesHeatAndWaterOfBandColumns) {
 
 TEST(SectionWidth, IsRefusedOnADeviceAndByTheBlock) {
   const config::Case parameters = case_from_text(column_slab(), {"case.width={ x = [0.0, 9.0], value = [1.0, 2.0] }"});
-  EXPECT_EQ((not_on_devices<2>(parameters, make_model<2>(parameters))), "a case.width that varies along x");
+  EXPECT_EQ((not_on_devices(make_model<2>(parameters))), "a case.width that varies along x");
   expect_in(error_of([&] { run_block(parameters); }),
             "the block model has one width. Give case.width as a number, or use `thawslide run`.");
 }

@@ -15,18 +15,18 @@ namespace {
 using namespace testing_support;
 
 // Release of 20 m at x = -75 to -5 m.
-Simulation<3> slide_on(const Height& height, double cell, bool follows = true) {
+Simulation<3> slide_on(const Height& height, double cell) {
   const Place half(200.0, 100.0);
   const auto slide = release_on_dem({20.0, 0.01, cell, {-200.0, -100.0, -300.0}, {200.0, 100.0, 300.0}}, {}, 20.0);
   const Raster thickness = thickness_between(
       -half, half, 5.0, [](double x, double y) { return std::hypot(x + 40.0, y) < 35.0 ? 20.0 : 0.0; });
-  return Simulation<3>(case_on_dem(slide, fmt::format("grid.follows_terrain={}; time.stepping=adaptive", follows)),
+  return Simulation<3>(case_on_dem(slide, "time.stepping=adaptive"),
                        site_of(raster_between(-1.25 * half, 1.25 * half, 1.25, height), thickness));
 }
 
 // Warnings, one per line.
-std::string warnings_on(const Height& height, double cell, bool follows = true) {
-  const Simulation<3> simulation = slide_on(height, cell, follows);
+std::string warnings_on(const Height& height, double cell) {
+  const Simulation<3> simulation = slide_on(height, cell);
   return fmt::format("{}", fmt::join(warnings_of_unresolved_terrain(simulation, body_figures(simulation)), "\n"));
 }
 
@@ -99,7 +99,6 @@ TEST(UnresolvedTerrain, IsSilentOnTerrainThatCellsRepresentOrTheSlideDoesNotReac
   EXPECT_EQ(warnings_on(ridge(0.0, 10.0), cell), "") << "a plane";
   EXPECT_EQ(warnings_on(ridge(4.5, 10.0), cell), "") << "low against the release";
   EXPECT_EQ(warnings_on(ridge(12.0, 10.0, 0.0, -185.0), cell), "") << "above the release";
-  EXPECT_EQ(warnings_on(ridge(12.0, 10.0), cell, false), "") << "level cells";
   for (const double azimuth : {0.0, 30.0, 45.0, 90.0}) {
     for (const double along : {0.0, 5.0}) {
       EXPECT_EQ(warnings_on(ridge(200.0, 400.0, azimuth, along), cell), "") << "a sharp crest";

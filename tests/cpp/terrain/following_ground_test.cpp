@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../support/small_terrain.hpp"
+#include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"
 
 namespace thawslide::terrain {
@@ -33,16 +34,18 @@ FollowingGround<3> ground_on(const std::shared_ptr<const HeightField>& terrain, 
   return {terrain, cell, Place(extent, extent), sizes, mpm::SectionWidth(), steepest};
 }
 
-// Heights of the columns in the domain, x fastest.
+// Heights of the columns in the domain, x fastest, from blocks of nodes.
 std::vector<double> column_heights(const FollowingGround<3>& ground) {
+  constexpr int edge = 4;
   std::vector<double> heights(columns * columns);
-  std::vector<Node> nodes(edge * edge * edge);
+  std::vector<GroundAtNode<3>> nodes(edge * edge * edge);
   for (int j = 0; j < columns; j += edge) {
     for (int i = 0; i < columns; i += edge) {
-      ground.at_block({i, j, 0}, cell, edge, nodes.data());
+      ground.at_block({i, j, 0}, edge, nodes.data());
       for (int b = 0; b < std::min(edge, columns - j); ++b) {
         for (int a = 0; a < std::min(edge, columns - i); ++a) {
-          heights[static_cast<std::size_t>(i + a + (j + b) * columns)] = nodes[node_number(a, b, 0)].elevation;
+          heights[static_cast<std::size_t>(i + a + (j + b) * columns)] =
+              nodes[static_cast<std::size_t>(a + edge * b)].elevation;
         }
       }
     }
@@ -102,8 +105,8 @@ TEST(SlopeLimit, LeavesGentlerTerrainAlone) {
 }
 
 TEST(SlopeLimit, CutsBackThePlateauAboveAProfilesWall) {
-  const auto profile = std::make_shared<ProfileSurface<2>>(Polyline({0.0, 100.0, 100.1, 300.0}, {0.0, 0.0, 60.0, 60.0}),
-                                                           mpm::SectionWidth());
+  const auto profile =
+      std::make_shared<ProfileSurface<2>>(Polyline({0.0, 100.0, 100.1, 300.0}, {0.0, 0.0, 60.0, 60.0}));
   mpm::BodySizes sizes;
   sizes.add(0.25);
   const FollowingGround<2> ground(profile, cell, Vector<double, 1>(300.0), sizes, mpm::SectionWidth(), limit);

@@ -21,15 +21,14 @@ Simulation<2> slab_on(const Incline& plane, double gravity_angle, double velocit
   }
   const auto toe = plane.place(length, 0.0), initial = plane.place(velocity, 0.0);
   return Simulation<2>(published_case(
-      "slab",
-      Sets(fmt::format("time.step=; time.stepping=adaptive; grid.follows_terrain=true; grid.cell={}; grid.min=[{},{}]; "
-                       "grid.max=[{},{}]; terrain.type=plane; terrain.elevation=0; terrain.slope={}; "
-                       "body.slab.shape=polygon; body.slab.min=; body.slab.max=; body.slab.vertices=[{}]; "
-                       "body.slab.velocity=[{},{}]; case.gravity_tilt={}; material.rock.youngs_modulus=5e8; "
-                       "mechanics.slope_shear=true",
-                       cell, -10.0 * cell, -cells(100.0 - toe[1]), cells(toe[0] + 100.0), 10.0 * cell, plane.degrees,
-                       vertices, initial[0], initial[1], gravity_angle - plane.degrees)) +
-          sets));
+      "slab", Sets(fmt::format("time.step=; time.stepping=adaptive; grid.cell={}; grid.min=[{},{}]; "
+                               "grid.max=[{},{}]; terrain.type=plane; terrain.elevation=0; terrain.slope={}; "
+                               "body.slab.shape=polygon; body.slab.min=; body.slab.max=; body.slab.vertices=[{}]; "
+                               "body.slab.velocity=[{},{}]; case.gravity_tilt={}; material.rock.youngs_modulus=5e8; "
+                               "mechanics.slope_shear=true",
+                               cell, -10.0 * cell, -cells(100.0 - toe[1]), cells(toe[0] + 100.0), 10.0 * cell,
+                               plane.degrees, vertices, initial[0], initial[1], gravity_angle - plane.degrees)) +
+                  sets));
 }
 
 // Means over the band below the middle three fifths of the slab.

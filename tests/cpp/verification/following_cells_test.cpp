@@ -32,7 +32,7 @@ std::shared_ptr<const terrain::Surface<Dim>> random_ground() {
       x.push_back(at);
       z.push_back(height(random));
     }
-    return std::make_shared<terrain::ProfileSurface<2>>(terrain::Polyline(x, z), mpm::SectionWidth());
+    return std::make_shared<terrain::ProfileSurface<2>>(terrain::Polyline(x, z));
   } else {
     const int points = static_cast<int>(2.0 * extent / spacing);
     return std::make_shared<terrain::HeightField>(

@@ -84,7 +84,7 @@ std::pair<double, double> crest_and_front(double begin) {
   double crest = 0.0, front = 0.0;
   for (double x = begin - cell; x <= end + cell; x += 0.25 * cell) {
     const Vector<double, 1> place(x - model.origin[0]);
-    crest = std::max(crest, model.following->height(place, 0) + model.origin[1]);
+    crest = std::max(crest, model.ground->height(place, 0) + model.origin[1]);
   }
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     front = std::max(front, model.origin[0] + simulation.particles().position(p, 0));
@@ -208,7 +208,7 @@ class Pool {
         const auto& contact = nodes.contact(b, k);
         const Vector<double, 1> x(mpm::node_position(simulation_->grid(), b, k)[0]);
         const auto& model = simulation_->model();
-        const double depth = surface - model.origin[1] - model.following->height(x, 0);
+        const double depth = surface - model.origin[1] - model.ground->height(x, 0);
         if (contact[mpm::Contact::touching] > 0.0 && x[0] >= 0.0 && x[0] <= length && depth > 0.5 * cell) {
           errors.push_back(contact[mpm::Contact::normal_force] / contact[mpm::Contact::area] /
                                (density * gravity * surface) -

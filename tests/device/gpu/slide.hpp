@@ -45,7 +45,7 @@ class ParticleMemory {
 };
 
 inline constexpr Real cell = 1.0;           // [m]
-inline constexpr int ground_index = 8;      // of the ground nodes, along the vertical
+inline constexpr Real ground = 8.0;         // elevation of the ground [m]
 inline constexpr Real density = 2000.0;     // [kg/m3]
 inline constexpr Real slope = 35.0;         // [degrees]
 inline constexpr Real time_step = 1e-3;     // [s]
@@ -95,16 +95,17 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     const std::array<std::size_t, 3> place{k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
     p.id(k) = static_cast<std::int64_t>((k * 7919) % memory.size() * 3);  // unordered, with gaps
     for (int a = 0; a < Dim; ++a) {
-      const Real from = a == Dim - 1 ? static_cast<Real>(ground_index) * cell : Real(16) * cell;
+      const Real from = a == Dim - 1 ? ground : Real(16) * cell;
       // Displaced, so that no two particles behave alike or change cell in the same step.
       const Real off = 0.45 * std::sin(static_cast<Real>(k % 1009) + 2.4 * a);
       p.position(k, a) = from + (static_cast<Real>(place[static_cast<std::size_t>(a)]) + 0.5 + off) * spacing;
     }
+    p.height_above_ground(k) = p.position(k, Dim - 1) - ground;
     p.volume(k) = p.initial_volume(k) = volume;
     p.mass(k) = density * volume;
     p.velocity(k, 0) = 3.0 + 6.0 * static_cast<Real>(place[Dim - 1]) / static_cast<Real>(count[2]);  // shear
     p.velocity(k, Dim - 1) = -0.3;
-    const Real depth = static_cast<Real>(size.height) * cell - (p.position(k, Dim - 1) - ground_index * cell);
+    const Real depth = static_cast<Real>(size.height) * cell - p.height_above_ground(k);
     for (int c = 0; c < 3; ++c) {
       p.stress(k, c) = -0.5 * density * 9.81 * depth;
     }
@@ -125,6 +126,9 @@ template <int Dim>
 device::StepModel<Dim> model_of_slide() {
   device::StepModel<Dim> model;
   model.cell = cell;
+  model.mapping.has_ground = true;
+  model.columns.columns.fill(1);  // others have the same height
+  model.columns.chunks.fill(1);
   model.half_sizes = {0.5 / static_cast<Real>(per_axis)};
   model.gravity.setZero();
   model.gravity[0] = 9.81 * std::sin(slope * pi / 180.0);
@@ -179,21 +183,21 @@ band::SumsOfParticle<Dim> sums_of_particle() {
   return of_particle;
 }
 
-// Ground on a plane aligned with the grid.
+// Level ground.
 template <int Dim>
 bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
   using T = mpm::Tile<Dim>;
   const Real face = Dim == 2 ? cell : cell * cell;
   for (int k = 0; k < T::nodes; ++k) {
-    const int above = T::node(T::index(block), k)[Dim - 1] - ground_index;
+    const int layer = T::node(T::index(block), k)[Dim - 1];
     terrain::GroundAtNode<Dim> node;
     node.normal.setZero();
     node.normal[Dim - 1] = -1.0;
-    node.distance = static_cast<Real>(above) * cell;
-    node.candidate = above == 0;
-    node.plane = above == 0 ? -static_cast<Real>(ground_index) * cell : std::numeric_limits<Real>::infinity();
-    node.area = above == 0 ? face : 0.0;
-    node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
+    node.candidate = layer <= 0;
+    node.plane = layer <= 0 ? -ground : std::numeric_limits<Real>::infinity();
+    node.plane_scale = layer <= 0 ? 1.0 : 0.0;
+    node.area = layer == 0 ? face : 0.0;
+    node.elevation = ground + static_cast<Real>(layer) * cell;
     nodes[k] = node;
   }
   return true;
@@ -204,6 +208,7 @@ device::HostCallbacks<Dim> terrain_of_slide() {
   using Place = Vector<Real, Dim - 1>;
   device::HostCallbacks<Dim> ask;
   ask.ground = query_ground<Dim>;
+  ask.column_heights = [] { return std::vector<double>(terrain::ColumnChunks<Dim>::size, ground); };
   ask.slope_cosine = [](const Place& /*place*/) { return 1.0; };
   ask.normal_gravity = [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi / 180.0); };
   return ask;

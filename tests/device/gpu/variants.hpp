@@ -12,32 +12,19 @@
 
 namespace thawslide::gpu_test {
 
-enum class Variant {
-  plain,
-  elastic,
-  quadratic,
-  apic,
-  filtered,
-  heated_face,
-  at_rest,
-  by_layer,
-  unknown_ground,
-  columns,
-  bed
-};
+enum class Variant { plain, elastic, quadratic, apic, filtered, heated_face, at_rest, unknown_ground, columns, bed };
 
 struct NamedVariant {
   Variant variant;
   const char* name;
 };
-inline constexpr std::array<NamedVariant, 11> variants{{{Variant::plain, "as it is"},
+inline constexpr std::array<NamedVariant, 10> variants{{{Variant::plain, "as it is"},
                                                         {Variant::elastic, "without yielding"},
                                                         {Variant::quadratic, "quadratic shape functions"},
                                                         {Variant::apic, "APIC"},
                                                         {Variant::filtered, "velocity filter"},
                                                         {Variant::heated_face, "heat through a face"},
                                                         {Variant::at_rest, "heat and pressure alone"},
-                                                        {Variant::by_layer, "band by the cells' thickness"},
                                                         {Variant::unknown_ground, "ground not known everywhere"},
                                                         {Variant::columns, "band columns"},
                                                         {Variant::bed, "erodible bed"}}};
@@ -72,7 +59,6 @@ device::StepModel<Dim> model_of(Variant variant) {
       model.heat = model.pressure_changes = model.rescales_band = false;
       break;
     case Variant::plain:
-    case Variant::by_layer:
     case Variant::unknown_ground:
     case Variant::bed:
       break;
@@ -83,7 +69,7 @@ device::StepModel<Dim> model_of(Variant variant) {
 // Data received by the CPU part of a step, in sequence.
 using Reported = std::vector<Real>;
 
-// Uniform columns. Candidate nodes are those of one layer of each lowest block.
+// Uniform columns.
 template <int Dim>
 device::HostColumns columns_below(const std::shared_ptr<Reported>& specified) {
   const auto states = std::make_shared<std::vector<Real>>();
@@ -148,9 +134,6 @@ device::HostCallbacks<Dim> processor_of(Variant variant, const std::shared_ptr<R
       query_ground<Dim>(block, nodes);
       return mpm::Tile<Dim>::index(block)[0] < 5;
     };
-  }
-  if (variant == Variant::by_layer) {
-    ask.layer_at_middle = [](const std::array<int, Dim - 1>& column) { return 1.3 + 0.2 * std::sin(1.0 * column[0]); };
   }
   if (variant == Variant::columns) {
     ask.columns = columns_below<Dim>(specified);
