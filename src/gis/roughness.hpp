@@ -1,7 +1,7 @@
 // Noise and short bumps of a DEM, which act on a slide like friction, and the width of a filter that reduces them.
 //
 // The formulas and numbers of friction were measured with Thawslide: blocks on planes and in V channels with white
-// noise on the points (docs/theory/contact.md, "Roughness").
+// noise on the points (docs/theory/roughness.md).
 #pragma once
 
 #include <string>

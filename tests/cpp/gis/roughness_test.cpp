@@ -225,7 +225,7 @@ TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredEquallyOnAllCells) {
   EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).remaining_slope, 0.1);
 }
 
-// Friction found in runs without a filter and with one: docs/theory/contact.md.
+// Friction found in runs without a filter and with one: docs/theory/roughness.md.
 TEST(RoughnessTest, ApparentFrictionAgreesWithRuns) {
   struct Row {
     double rms, spacing, width, friction;

@@ -129,7 +129,7 @@ double wedge_lost(double opening, double width) {
 }
 
 TEST(FilteredValley, NarrowValleysLoseThreePercentOfTheirWedge) {
-  // Computed values, confirmed by runs with a standard deviation of one cell: docs/theory/contact.md.
+  // Computed values, confirmed by runs with a standard deviation of one cell: docs/theory/roughness.md.
   EXPECT_NEAR(wedge_lost(120.0, 8.0), 0.058, 0.001);
   EXPECT_NEAR(wedge_lost(90.0, 8.0), 0.123, 0.001);
   EXPECT_NEAR(wedge_lost(60.0, 8.0), 0.201, 0.001);

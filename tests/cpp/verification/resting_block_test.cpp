@@ -1,7 +1,5 @@
 // Pressure of a block at rest on the ground, and the angle at which it starts to slide.
 #include "../exact/motion.hpp"
-#include "terrain/base_pressure.hpp"
-#include "terrain/ground_on_grid.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
@@ -23,18 +21,15 @@ Pressing press(const Sets& sets) {
   const double mean = weight / 40.0;
   Pressing seen;
   while (simulation.time() < 2.0 - 1e-9) {
-    const double dt = simulation.next_step(2.0);
-    simulation.step(dt);
+    simulation.step(simulation.next_step(2.0));
     seen.ringing = std::max(seen.ringing, std::abs(-simulation.contact().force[1] / weight - 1.0));
-    const auto& grid = simulation.grid();
-    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-      if (!simulation.ground()->any_candidate(b)) {
-        continue;
-      }
-      const auto pressure = terrain::base_pressure(grid, *simulation.ground(), simulation.nodes(), b, dt, 1e-6);
-      for (std::size_t k = 0; k < pressure.size(); ++k) {
-        if (simulation.nodes().base(b, k)[mpm::BaseLayout::load] > 0.0) {
-          seen.unevenness = std::max(seen.unevenness, std::abs(pressure[k] / mean - 1.0));
+    const auto& contacts = simulation.nodes().contact;
+    for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
+      for (std::size_t k = 0; contacts.contains(b) && k < contacts.nodes; ++k) {
+        const auto& contact = contacts(b, k);
+        if (contact[mpm::Contact::touching] > 0.0) {
+          const double pressure = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
+          seen.unevenness = std::max(seen.unevenness, std::abs(pressure / mean - 1.0));
         }
       }
     }
