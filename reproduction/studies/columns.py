@@ -27,8 +27,6 @@ from reproduction.numerics import (
     cells_table,
     numerics_rows,
     numerics_table,
-    variant_cell_rows,
-    variant_cells_table,
 )
 from reproduction.sentences import filled
 from reproduction.study import ROOT, Job, Place, Study, StudyError
@@ -84,8 +82,7 @@ def first_jobs(place: Place) -> list[Job]:
 
 def variant_jobs(place: Place) -> list[Job]:
     """Return the variants, whose labels compare their values with those of the case."""
-    variants = variants_of(place)
-    return with_common(place, [*variants, *([] if place.is_quick else variant_cell_rows(variants))])
+    return with_common(place, variants_of(place))
 
 
 def draw(members: list[Observed], folders: list[Path], place: Place) -> tuple[dict[str, float], str]:
@@ -118,8 +115,8 @@ def write(place: Place) -> None:
     without_title(velocity(Run(place.runs / BASE.key))).savefig(
         place.page("cases/lamplugh-columns/figures/velocity.png"), dpi=150
     )
-    numerics, on_cells = numerics_rows(), variant_cell_rows(variants)
-    found = {row.key: observed(place.runs / row.key) for row in (BASE, *variants, *numerics, *cells, *on_cells)}
+    numerics = numerics_rows()
+    found = {row.key: observed(place.runs / row.key) for row in (BASE, *variants, *numerics, *cells)}
     middle, of_force = draw(members, [place.runs / row.key for row in rows], place)
     words = numbers(members, found) | middle | {"members": float(len(rows)), "noise": NOISE}
     parts = {
@@ -128,9 +125,8 @@ def write(place: Place) -> None:
         "force": of_force,
         "variants": variants_table([BASE, *variants], found),
         "cells": cells_table(found),
-        "variant_cells": variant_cells_table(variants, found),
         "numerics": numerics_table(numerics, found[BASE.key], found),
-        "program": programs([place.runs / row.key for row in (BASE, *rows, *variants, *on_cells)]),
+        "program": programs([place.runs / row.key for row in (BASE, *rows, *variants)]),
     }
     text = with_marks(filled((CASE / "results.txt").read_text(encoding="utf-8"), words), parts)
     place.page("cases/lamplugh-columns/results.md").write_text(rewrapped(text), encoding="utf-8")

@@ -142,7 +142,7 @@ def test_a_coulomb_slide_travels_alike_on_a_grid_shifted_along_all_axes(thawslid
     """
     plain = valley_as_it_is()
     both = {
-        name: at_rest(thawslide, valley, tmp_path / name, end=70.0, time__step=STEP / 2.0, **COULOMB)
+        name: at_rest(thawslide, valley, tmp_path / name, end=70.0, **COULOMB)
         for name, valley in {"plain": plain, "shifted": shifted(plain, [CELL / 2.0] * 3)}.items()
     }
     for column, value in both["plain"].items():
