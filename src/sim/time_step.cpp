@@ -58,7 +58,7 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
   const double cell = parameters.grid.cell / std::hypot(1.0, found.slope);
   const auto on_cells = [&] {
     const std::string cells = fmt::format("cells of {} m", parameters.grid.cell);
-    return found.slope > 0.0
+    return found.slope > round_off
                ? fmt::format("{}, {} m thick across the steepest ground below a particle ({} degrees)", cells,
                              rounded_text(cell, 3), rounded_text(std::atan(found.slope) * 180.0 / pi, 2))
                : cells;

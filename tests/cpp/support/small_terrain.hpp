@@ -12,6 +12,7 @@
 namespace thawslide::testing_support {
 
 using Place = Vector<double, 2>;
+using Position = Vector<double, 3>;
 constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
 
 inline Raster raster(double x, double y, double cell, int columns, int rows,

@@ -11,6 +11,7 @@
 #include "mpm/particle_pass.hpp"
 #include "sim/simulation.hpp"
 #include "terrain/following_ground.hpp"
+#include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"
 
 namespace thawslide::verification {
