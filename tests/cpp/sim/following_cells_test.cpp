@@ -137,7 +137,7 @@ TEST(FollowingCells, StackedBodiesStandOnTheGroundOfTheCells) {
   ASSERT_GE(columns.size(), 20U);
   const Real spacing = thickness / 6;
   for (const auto& [x, column] : columns) {
-    const Real ground = static_cast<Real>(made.model().following->height(terrain::Surface<2>::Point(x)));
+    const Real ground = static_cast<Real>(made.model().ground->height(terrain::Surface<2>::Point(x)));
     EXPECT_NEAR(column[0] - ground, 0.5 * spacing, 1e-9);
     EXPECT_NEAR(column[2] - column[1], spacing, 1e-9) << "at x = " << x;
     EXPECT_NEAR(column[3] - column[2], thickness - spacing, 1e-9);
@@ -156,7 +156,7 @@ TEST(FollowingCells, MapsAreRelativeToTheGroundOfTheCells) {
   ASSERT_EQ(ground.values.size(), thickness.values.size());
   const auto terrain = [&](double x, double y) {
     const Vector<double, 3>& origin = slide->model().origin;
-    return slide->model().following->terrain().height({x - origin[0], y - origin[1]}) + origin[2];
+    return slide->model().ground->terrain().height({x - origin[0], y - origin[1]}) + origin[2];
   };
   double volume = 0.0, most = 0.0;
   for (int j = 0; j < ground.rows; ++j) {
