@@ -9,7 +9,7 @@ from conftest import ROOT, Program, history, run_facts
 
 CASES = sorted((ROOT / "cases").glob("*/*.toml"))
 STEPS = 40
-ADAPTIVE_STEP = 0.01  # s
+ADAPTIVE_STEP = 0.02  # s
 
 # Cases that need terrain and release of the user, and their folder next to the checkout.
 DATA = ROOT.parent / "shared" / "data"
