@@ -136,7 +136,7 @@ TEST(BodyFigures, ReportTheClearanceAboveTheGround) {
 
 TEST(BodyFigures, ReportTheVolumeErrorOfTheLattice) {
   const Sets lower =
-      "terrain.type=none; "
+      "terrain.type=none; grid.boundary.y_min=fixed; grid.min=[0,1]; grid.max=[40,21]; "
       "body.block.vertices=[[10.0,1.0],[22.0,1.0],[22.0,3.0],[18.0,3.0],[18.0,4.8],[10.0,4.8]]";
   const std::vector<BodyFigures> bodies = figures_of(step, lower);
   EXPECT_NEAR(bodies.front().shape_volume, 38.4, 1e-12);

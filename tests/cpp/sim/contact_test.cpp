@@ -109,30 +109,6 @@ TEST(Walls, ApplyWhereTheyMeetTheGround) {
   }
 }
 
-// Without the distance check, contact acts up to a cell too early. A body that hovers by half a cell still has its
-// complete base.
-TEST(ContactArea, OfAHoveringSlabIsItsBase) {
-  Simulation<2> simulation(
-      paper_case(cornered,
-                 "case.gravity_tilt=0; grid.boundary.x_min=open; terrain.elevation=-2.5; "
-                 "body.block.min=[20,0]; "
-                 "body.block.max=[60,20]; body.block.velocity=[10,0]; basal.friction_angle=0; "
-                 "basal.cohesion=1e4; basal.cohesion_law=constant; mechanics.initial_stress=settle; "
-                 "mechanics.settle_time=5.0; mechanics.settle_damping=5.0; basal.distance_check=false"));
-  simulation.settle();
-  double tangential = 0.0;
-  for (int k = 0; k < 1000; ++k) {
-    simulation.step(0.001);
-    tangential += simulation.contact().force[0] / 1000;
-  }
-  double lowest = HUGE_VAL;
-  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-    lowest = std::min(lowest, simulation.particles().position(p, 1) - 10.0);
-  }
-  EXPECT_GT(lowest - 1.25, -1.5) << "it no longer hovers by a quarter of a cell over ground at -2.5 m";
-  EXPECT_NEAR(tangential / (1e4 * 40.0), 1.0, 0.06);
-}
-
 // Sudden gravity makes the base force oscillate between zero and twice the weight; a settled body is at rest.
 struct Ringing {
   double least = HUGE_VAL, most = -HUGE_VAL;

@@ -15,7 +15,9 @@ namespace {
 
 using namespace testing_support;
 
-config::Case lamplugh(const Sets& sets = {}) { return config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh", sets); }
+config::Case lamplugh(const Sets& sets = {}) {
+  return config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh", Sets("time.stepping=fixed; time.step=0.005") + sets);
+}
 
 // Fast from the start, such that a few seconds include sliding, melting, pressurization and yield.
 const Sets hasty = "body.slide.velocity=[20.0,-22.0]; basal.slip_distance=20.0";
@@ -23,12 +25,12 @@ const Sets hasty = "body.slide.velocity=[20.0,-22.0]; basal.slip_distance=20.0";
 TEST(Budget, ClosesOnAShortLamplugh) {
   double residual[2];
   for (int k = 0; k < 2; ++k) {
-    Simulation<2> simulation(lamplugh(hasty + (k == 0 ? "time.step=0.01" : "time.step=0.005")));
+    Simulation<2> simulation(lamplugh(hasty + (k == 0 ? "time.step=0.005" : "time.step=0.0025")));
     const auto start = history_row(simulation);
     run_until(simulation, 5.0);
     const auto row = history_row(simulation);
     EXPECT_EQ(value_of(row, "mass_kg"), value_of(start, "mass_kg"));
-    EXPECT_EQ(value_of(row, "rock_kg"), value_of(start, "rock_kg"));
+    EXPECT_DOUBLE_EQ(value_of(row, "rock_kg"), value_of(start, "rock_kg"));
     EXPECT_NEAR((value_of(row, "ice_kg") + value_of(row, "water_kg")) /
                     (value_of(start, "ice_kg") + value_of(start, "water_kg")),
                 1.0, 1e-12);
@@ -116,12 +118,12 @@ TEST(Fault, InvertedVolumeNamesTheParticle) {
   expect_in(message, "volume");
 }
 
-std::string refusal_of(const std::string& set) {
-  return error_of([&] { Simulation<2>(lamplugh({set})); });
+std::string refusal_of(const Sets& sets) {
+  return error_of([&] { Simulation<2>(lamplugh(sets)); });
 }
 
 TEST(TimeStep, AboveTheLimitIsAnErrorThatStatesIt) {
-  const std::string message = refusal_of("time.step=0.05");
+  const std::string message = refusal_of("time.step=0.05; material.rock_ice.viscosity_time=0");
   expect_in(message, "time.step is 0.05 s, above the limit of 0.0");
   expect_in(message, "elastic wave of material 'rock_ice'");
   expect_in(message, "adaptive");
