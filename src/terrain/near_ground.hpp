@@ -15,8 +15,7 @@ template <int Dim>
 void set_contact_offset(const mpm::BodySizes& sizes, Real cell, mpm::Particles<Dim>& particles, std::size_t first = 0);
 
 // Fills nodes.near_ground of candidate nodes (other nodes of their blocks are undefined): the sums, and the clearance
-// [m], the smallest gap between the node's plane and the particles in reach (mpm/records.hpp); 0 or less at contact. A
-// distance to any ground would let particles on a floor close the gap of nodes that face a wall.
+// [m] along the vertical, the smallest one of the particles in reach; 0 or less at contact.
 template <int Dim>
 void near_ground_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                          const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes);
