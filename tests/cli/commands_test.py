@@ -69,7 +69,7 @@ def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
     assert facts["cells"].startswith(f"{1220 * 220:,} in the domain")
     limit = r"0\.00\d+ s at the start \(adaptive\); the limit is 0\.00\d+ s, set by the viscosity of material 'rock_ice'"
     assert re.match(limit, facts["step"])
-    assert facts["steps"] == "20,000"
+    assert facts["steps"] == "about 40,000"
     assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", facts["memory"])
     without = r"not used: (this program was built without CUDA; .*|no NVIDIA (driver|GPU) found|the .*)"
     assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", facts["GPU"])
@@ -163,7 +163,8 @@ def test_block_prints_a_table(thawslide: Program) -> None:
     assert names.split()[:3] == ["time", "velocity", "distance"]
     assert units.split()[:3] == ["s", "m/s", "m"]
     times = [float(row.split()[0]) for row in rows]
-    assert len(times) == 21 and times[0] == 0.0 and times[-1] == 40.0 and times == sorted(times)
+    assert len(times) == 21 and times[0] == 0.0 and times == sorted(times)
+    assert times[-1] == pytest.approx(40.0, abs=0.02)
     assert re.match(r"safety factor at the start: \d\.\d{3} ", last)
 
 
