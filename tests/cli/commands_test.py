@@ -74,11 +74,11 @@ def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
     without = r"not used: (this program was built without CUDA; .*|no NVIDIA (driver|GPU) found|the .*)"
     assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", facts["GPU"])
     assert re.match(
-        r"slide: 84,300 m3 and 174,000 t per metre of width, along 1,060 m; 79\.9 m thick on average, 90 m "
-        r"in the median and 90 m at most \(vertical\)",
+        r"slide: 84,300 m3 and 174,000 t per metre of width, along 1,050 m; 80\.3 m thick on average, 89\.7 m "
+        r"in the median and 89\.7 m at most \(vertical\)",
         facts["body"],
     )
-    assert "              3,371 particles 5 m apart; 18 across in the median and 18 at most; -10 C\n" in printed
+    assert "              3,384 particles 5 m apart; 17.9 across in the median and 17.9 at most; -10 C\n" in printed
     assert re.fullmatch(
         r"about 180 MB: 201 snapshots of \d\d0 kB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs \d+ kB; \S+ [MG]B "
         r"are free",

@@ -120,7 +120,8 @@ def test_run_json_reports_inputs_with_their_hashes_and_speed(lamplugh: Path) -> 
         assert each["bytes"] == len(content)
 
 
-def test_terrain_is_the_profile_inside_the_domain(lamplugh: Path) -> None:
+def test_terrain_is_the_ground_of_the_columns_inside_the_domain(lamplugh: Path) -> None:
+    """Columns are at the points of the profile. At a column, uGIMP has the weights 1/16, 7/8 and 1/16."""
     header, *rows = (lamplugh / "terrain.csv").read_text().splitlines()
     assert header == "distance_m,terrain_elevation_m"
     points = [tuple(map(float, row.split(","))) for row in rows]
@@ -130,8 +131,10 @@ def test_terrain_is_the_profile_inside_the_domain(lamplugh: Path) -> None:
         if line[:1].isdigit() or line[:1] == "-":
             x, elevation, _ = map(float, line.split(","))
             given[x] = elevation
-    for x, elevation in points[1:-1]:
-        assert elevation == pytest.approx(given[round(x, 6)], abs=1e-6)
+    column = {x: (given[x - 10.0] + 4.0 * z + given[x + 10.0]) / 6.0 for x, z in given.items() if -200.0 < x < 12000.0}
+    for x, elevation in points[2:-2]:
+        before, here, after = (column[round(x + step, 6)] for step in (-10.0, 0.0, 10.0))
+        assert elevation == pytest.approx(before / 16.0 + 7.0 * here / 8.0 + after / 16.0, abs=1e-6)
 
 
 def test_the_resolved_case_has_bitwise_identical_results(ran: Ran, lamplugh: Path, tmp_path: Path) -> None:

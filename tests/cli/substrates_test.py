@@ -57,7 +57,7 @@ WIDE = ROOT / "cases" / "lamplugh-columns" / "wide-valley.toml"
 
 def test_check_states_the_reference_width_of_values_per_metre(thawslide: Program) -> None:
     printed = thawslide.ok("check", WIDE)
-    assert "slide: 84,300 m3 and 174,000 t per metre of the width at x = 2190 m, along 1,060 m; " in printed
+    assert "slide: 84,300 m3 and 174,000 t per metre of the width at x = 2190 m, along 1,050 m; " in printed
     assert "case.width" not in printed, "1,883 m over 2 km is no reason to warn"
     printed = thawslide.ok("check", WIDE, "--set", "case.width={ x = [2190.0, 3190.0], value = [617.0, 2500.0] }")
     lateral = "The neglected lateral motion would have 0.3 of the kinetic energy there."
