@@ -67,7 +67,7 @@ def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
     facts = dict(re.findall(r"^  (\w+) +(\S.*)$", printed, re.MULTILINE))
     assert int(facts["particles"].replace(",", "")) > 3000
     assert facts["cells"].startswith(f"{1220 * 220:,} in the domain")
-    limit = r"0\.00\d+ s at the start \(adaptive\); the limit is 0\.00\d+ s, set by the viscosity of material 'rock_ice'"
+    limit = r"0\.0\d+ s at the start \(adaptive\); the limit is 0\.00\d+ s, set by the viscosity of material 'rock_ice"
     assert re.match(limit, facts["step"])
     assert facts["steps"] == "about 40,000"
     assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", facts["memory"])

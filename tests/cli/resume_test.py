@@ -37,7 +37,7 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert_identical(complete, run)
     assert (run / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()
     after, expected = run_facts(run), run_facts(complete)
-    assert after["status"] == "done" and after["steps"] == expected["steps"] == 300
+    assert after["status"] == "done" and after["steps"] == expected["steps"] == 600
     assert after["inputs"] == expected["inputs"]
     # Command and start are those of the first part; wall-clock time and particle steps are sums of both.
     first, second = after["parts"]
@@ -45,8 +45,8 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert second["command"].endswith(f"resume {run} --threads 1") and second["threads"] == 1
     assert (first["from_s"], second["from_s"]) == (0, stop)
     assert first["wall_s"] == facts["wall_s"] and after["wall_s"] == first["wall_s"] + second["wall_s"]
-    assert first["particle_steps"] + second["particle_steps"] == after["particles"] * 300
-    assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 300 / after["wall_s"])
+    assert first["particle_steps"] + second["particle_steps"] == after["particles"] * 600
+    assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 600 / after["wall_s"])
 
 
 def test_a_stop_does_not_change_columns(ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path) -> None:

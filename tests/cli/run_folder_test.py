@@ -52,7 +52,7 @@ def test_history_has_a_header_and_a_row_per_interval_of_numbers_in_their_shortes
     assert next(iter(columns)) == "time_s"
     assert columns.keys() >= COLUMNS
     np.testing.assert_allclose(columns["time_s"], np.arange(11) * 0.1, rtol=0, atol=1e-12)
-    assert columns["step"].tolist() == list(range(0, 101, 10))
+    assert columns["step"].tolist() == list(range(0, 201, 20))
     assert (columns["mass_kg"] == columns["mass_kg"][0]).all() and columns["mass_kg"][0] > 0
     text = (lamplugh / "history.csv").read_text()
     assert text.endswith("\n") and "#" not in text
@@ -106,7 +106,7 @@ def test_the_particles_file_combines_all_snapshots(lamplugh: Path) -> None:
 def test_run_json_reports_inputs_with_their_hashes_and_speed(lamplugh: Path) -> None:
     facts = run_facts(lamplugh)
     assert facts["status"] == "done" and facts["message"] == ""
-    assert facts["steps"] == 100 and facts["simulated_time_s"] == pytest.approx(END)
+    assert facts["steps"] == 200 and facts["simulated_time_s"] == pytest.approx(END)
     assert facts["threads"] == 1 and facts["origin_m"] == [-200.0, 200.0]
     rate = facts["particles"] * facts["steps"] / facts["wall_s"]
     assert facts["particle_steps_per_second"] == pytest.approx(rate)
