@@ -123,7 +123,7 @@ def avaframe_tasks(place: Place) -> list[Task]:
         write_case(ground, ground.name, place.runs, place.data / "alr")
         for variant in (AVAFRAME, *ground.avaframe):
             words = (str(folder), str(ground.friction_angle), variant.name, *variant.changes)
-            command = (str(python_of(place)), str(SCRIPT), *words)
+            command = (str(python_of(place)), "-I", str(SCRIPT), *words)  # -I: its folder has an avaframe.py
             inputs = (SCRIPT, folder / "dem.tif", folder / "release.json")
             tasks.append(Task(f"{ground.name}/{variant.name}", command, folder / variant.name, inputs=inputs))
     return tasks

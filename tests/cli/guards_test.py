@@ -9,7 +9,7 @@ from conftest import LAMPLUGH, Interrupted, Program, Ran, assert_identical, cont
 
 # A block of 48 particles that slides to a stop within about 1.2 s.
 SLIDES = sets(time__end=5, body__block__velocity="[2,0]", material__rock__viscosity_time=0.0005)
-SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.01)
+SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.005)
 RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
 
 
