@@ -9,7 +9,7 @@ from conftest import LAMPLUGH, Interrupted, Program, Ran, assert_identical, cont
 
 # A block of 48 particles that slides to a stop within about 1.2 s.
 SLIDES = sets(time__end=5, body__block__velocity="[2,0]", material__rock__viscosity_time=0.0005)
-SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.005)
+SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.01)
 RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
 
 
@@ -122,7 +122,7 @@ def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> No
         outcome.stderr,
     )
     assert reported, outcome.stderr
-    assert reported[2] == reported[3] and 5.0 < float(reported[4]) < 10.0
+    assert reported[2] == reported[3] and float(reported[4]) > 5.0
     assert re.search(
         r"warning: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv "
         r"has their mass, run\.json their number\n",
@@ -133,6 +133,7 @@ def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> No
     facts, columns = run_facts(run), history(run)
     assert facts["removed_particles"] == {"left": 0, "not_finite": 0, "volume": int(reported[2])}
     assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
+    assert columns["removed_mass_kg"][-2] <= 0.05 * columns["mass_kg"][0], "the run ends at the limit"
 
 
 def test_resume_keeps_removed_particles(ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path) -> None:
