@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -128,7 +129,8 @@ def spread_words(found: list[Found]) -> str:
             ("deposit area", "area"),
         )
     ]
-    return f"Range over mean of the {len(found)} finest cells: {', '.join(parts)}."
+    words = f"Range over mean of the {len(found)} finest cells: {', '.join(parts)}."
+    return textwrap.fill(words, 118)
 
 
 def friction_rows(folder: Path, terrain: Map) -> list[Interval]:
