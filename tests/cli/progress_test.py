@@ -49,10 +49,11 @@ def test_summary_reports_throughput_and_result(run_output: tuple[list[str], Path
     facts = run_facts(run)
     first = next(k for k, line in enumerate(lines) if "particle-steps per second" in line)
     reported = re.fullmatch(
-        r"([\d,]+) particles, 200 steps in \d+ s: (\S+) million particle-steps per second on 1 thread", lines[first]
+        r"([\d,]+) particles, ([\d,]+) steps in \d+ s: (\S+) million particle-steps per second on 1 thread", lines[first]
     )
     assert reported and int(reported[1].replace(",", "")) == facts["particles"]
-    assert reported[2] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
+    assert int(reported[2].replace(",", "")) == facts["steps"]
+    assert reported[3] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     assert re.fullmatch(
         r"at 2 s, not at rest: mean velocity \d+\.\d\d m/s, mean displacement \d+ m, front at \d+ m, runout \d+ m",
         lines[first + 1],

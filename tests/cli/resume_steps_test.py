@@ -10,7 +10,7 @@ import pytest
 from conftest import LAMPLUGH, Program, Ran, assert_identical, history, mark_killed, run_facts, sets, snapshot_files
 
 END, ROWS, SNAPSHOTS = 3.0, 0.09, 0.45  # s; each snapshot has a row; steps end at snapshots only
-WORDS = sets(time__stepping="adaptive", time__end=END, time__history_interval=ROWS, time__output_interval=SNAPSHOTS)
+WORDS = sets(time__safety=0.77, time__end=END, time__history_interval=ROWS, time__output_interval=SNAPSHOTS)
 
 
 @pytest.fixture(scope="module")
