@@ -140,7 +140,7 @@ def test_runs_figures_and_sentences_are_complete() -> None:
             assert test[1] in ("<", ">", "within") and len(test) in (3, 4)
             assert (test[1] == "within") <= (len(test) == 4)
     names = [run.key for run in all_runs()]
-    assert len(set(names)) == len(names) == 39
+    assert len(set(names)) == len(names) == 36
     # The page states it for all rows; the tolerance of saturations is 0.1.
     for row in claims():
         for left, kind, right, *width in row.get("tests", []):
