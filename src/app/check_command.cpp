@@ -63,7 +63,7 @@ std::vector<MapFacts> map_facts(const config::Case& parameters, const config::Si
 
 // Facts known before the first step.
 template <int Dim>
-SetupFacts facts_of(const sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>& records) {
+SetupFacts facts_of(sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>& records) {
   const config::Case& parameters = simulation.parameters();
   SetupFacts facts;
   facts.file = parameters.file;

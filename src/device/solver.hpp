@@ -32,6 +32,8 @@ class Solver {
 
   // Advances the solution by dt [s], from time [s].
   virtual StepSums<Dim> step(Real time, Real dt) = 0;
+  // Extremes that determine the first step; those of later ones are among the sums of the step before.
+  virtual band::StepExtremes extremes() = 0;
   // Monitor sums over the particles after a step.
   virtual mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) = 0;
   // Sums for maps (3D only).

@@ -19,6 +19,7 @@ class SolverImpl final : public Solver<Dim> {
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(callbacks)) {}
 
   StepSums<Dim> step(Real time, Real dt) override { return step_.step(time, dt); }
+  band::StepExtremes extremes() override { return step_.extremes(); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
   void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {

@@ -13,11 +13,11 @@
 #include "device/ground.hpp"
 #include "device/maps.hpp"
 #include "device/node_kernels.hpp"
+#include "device/position_kernels.hpp"
 #include "device/reductions.hpp"
 #include "device/step_passes.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
-#include "mpm/position_kernel.hpp"
 #include "mpm/stress_kernel.hpp"
 #include "terrain/band_marks_kernel.hpp"
 
@@ -66,39 +66,6 @@ struct DeformMaterial {
   }
 };
 
-// Heights of columns of nodes in device memory.
-template <int Dim>
-struct ColumnHeights {
-  terrain::ColumnChunks<Dim> columns;
-  const double* heights;  // by chunk and column
-
-  [[nodiscard]] THAWSLIDE_HD double operator()(const typename terrain::ColumnChunks<Dim>::Column& column) const {
-    const auto place = columns.place_of(column);
-    return heights[place.chunk * static_cast<std::size_t>(columns.size) + place.column];
-  }
-};
-
-// Updates positions and, with ground, what depends on them alone.
-template <int Dim>
-struct UpdatePosition {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = typename mpm::UpdatePosition<Dim>::Totals;
-
-  mpm::UpdatePosition<Dim> update;
-  bool has_ground;
-  terrain::LocateAboveGround<Dim, ColumnHeights<Dim>> locate;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Totals& invalid) const {
-    update(particles, at, seen, added, invalid);
-    if (has_ground) {
-      locate(particles, at);
-    }
-  }
-};
-
 // cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
 template <class Backend, int Dim>
 void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, Real cell,
@@ -142,6 +109,8 @@ class Step {
         bed_(backend, callbacks.bed) {
     if (passes_.model.mapping.has_ground) {
       column_heights_.set(callbacks.column_heights());
+      // Not those of the CPU, which may contract products and sums: a restart would not have the same bits.
+      backend.for_each(count, VisitInMemory<Dim, LocateParticle<Dim>>{passes_.particles.view(), {above_ground()}});
     }
     sums_.set(std::vector<Sums>(1));
     free_gaps_.set(model.free_gaps);
@@ -188,6 +157,10 @@ class Step {
     return sums_.get(0);
   }
 
+  band::StepExtremes extremes() {
+    find_cells();
+    return passes_.sum_over_particles(extremes_kernel(), extremes_);
+  }
   // Reductions over the particles after a step.
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) {
     return passes_.sum_over_particles(RunMonitor<Dim>{kernel}, monitored_);
@@ -330,13 +303,9 @@ class Step {
 
   // Updates positions and evaluates the reductions that the CPU requested.
   void update_positions() {
-    const UpdatePosition<Dim> update{{passes_.model.lower, passes_.model.upper},
-                                     passes_.model.mapping.has_ground,
-                                     {passes_.model.columns,
-                                      {passes_.model.columns, column_heights_.data()},
-                                      passes_.body_sizes(),
-                                      static_cast<double>(passes_.model.cell)}};
-    const FindExtremes<Dim> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
+    const UpdatePosition<Dim> update{
+        {passes_.model.lower, passes_.model.upper}, passes_.model.mapping.has_ground, above_ground()};
+    const FindExtremes<Dim> extremes = extremes_kernel();
     const CountEscaped<Dim> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
       update_positions(update, extremes, escapes);
@@ -347,6 +316,15 @@ class Step {
     } else {
       update_positions(update);
     }
+  }
+  [[nodiscard]] terrain::LocateAboveGround<Dim, ColumnHeights<Dim>> above_ground() const {
+    return {passes_.model.columns,
+            {passes_.model.columns, column_heights_.data()},
+            passes_.body_sizes(),
+            static_cast<double>(passes_.model.cell)};
+  }
+  [[nodiscard]] FindExtremes<Dim> extremes_kernel() const {
+    return {passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
   }
   [[nodiscard]] CountEscaped<Dim> escape_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,
@@ -374,6 +352,7 @@ class Step {
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   Front<Backend, Dim> front_{passes_.backend};
   Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
+  Array<band::StepExtremes, Backend> extremes_{passes_.backend, 1};
   Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };

@@ -26,7 +26,7 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
 }
 
 template <int Dim>
-double steps_to_end(const sim::Simulation<Dim>& simulation) {
+double steps_to_end(sim::Simulation<Dim>& simulation) {
   const config::Time& time = simulation.parameters().time;
   const double steps = time.end / simulation.next_step(time.end) * (1.0 - 1e-12);
   // Fixed steps may end the run up to half a step early; adaptive steps are cut to end exactly.
@@ -50,8 +50,8 @@ double measured_step_seconds(sim::Simulation<Dim>& simulation) {
 
 template void add_setup_warnings<2>(const sim::Simulation<2>&, const std::vector<sim::BodyFigures>&, Warnings&);
 template void add_setup_warnings<3>(const sim::Simulation<3>&, const std::vector<sim::BodyFigures>&, Warnings&);
-template double steps_to_end<2>(const sim::Simulation<2>&);
-template double steps_to_end<3>(const sim::Simulation<3>&);
+template double steps_to_end<2>(sim::Simulation<2>&);
+template double steps_to_end<3>(sim::Simulation<3>&);
 template double measured_step_seconds<2>(sim::Simulation<2>&);
 template double measured_step_seconds<3>(sim::Simulation<3>&);
 

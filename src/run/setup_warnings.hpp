@@ -13,7 +13,7 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
 
 // Number of steps of a run if all are as long as the first one.
 template <int Dim>
-[[nodiscard]] double steps_to_end(const sim::Simulation<Dim>& simulation);
+[[nodiscard]] double steps_to_end(sim::Simulation<Dim>& simulation);
 
 // Wall-clock seconds per step, measured on some steps, which advance the simulation.
 template <int Dim>

@@ -69,11 +69,12 @@ double Simulation<Dim>::adaptive_step() const {
 }
 
 template <int Dim>
-double Simulation<Dim>::next_step(double until) const {
+double Simulation<Dim>::next_step(double until) {
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const double left = parameters_.time.end - time_;  // the last step may be shorter
     return left > (1.0 - round_off) * parameters_.time.step ? parameters_.time.step : left;
   }
+  start_on_device();  // so that the step after a restart follows from extremes of the device, as without one
   const double dt = adaptive_step();
   stop_if_step_collapses(dt);
   const double left = until - time_;
@@ -115,7 +116,7 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
   template band::StepExtremes Simulation<Dim>::extremes() const; \
   template StepLimit Simulation<Dim>::step_limit() const;        \
   template double Simulation<Dim>::adaptive_step() const;        \
-  template double Simulation<Dim>::next_step(double) const;      \
+  template double Simulation<Dim>::next_step(double);            \
   template void Simulation<Dim>::stop_if_step_collapses(double) const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

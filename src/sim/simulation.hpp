@@ -92,7 +92,7 @@ class Simulation {
 
   // Next step [s]: the fixed one, or the largest adaptive one, shortened to end at `until`. Throws RunError if the
   // adaptive step becomes too small (guards.smallest_step, guards.most_steps).
-  [[nodiscard]] double next_step(double until) const;
+  [[nodiscard]] double next_step(double until);
 
   // True if the slide is at rest: for time.rest_time, at most moving_fraction_at_rest of the mass has been faster than
   // time.stop_at_rest or, by default, usual_rest_speed (sim/monitor.hpp). Also the criterion as text, and the time
@@ -180,6 +180,8 @@ class Simulation {
   // The step on a device (step_on_device.cpp).
   void advance_on_device();
   void on_device(const std::function<void()>& work) const;
+  // Copies the particles to the device unless they are there.
+  void start_on_device();
   [[nodiscard]] device::StepSums<Dim> step_on_device();
   // Copies particles from the device, where they remain; sync_to_host() also updates the grid to their positions.
   void copy_particles_back() const;

@@ -41,15 +41,22 @@ void Simulation<Dim>::on_device(const std::function<void()>& work) const {
 }
 
 template <int Dim>
-device::StepSums<Dim> Simulation<Dim>::step_on_device() {
-  if (!device_solver_) {
-    locate_particles();
+void Simulation<Dim>::start_on_device() {
+  if (!make_solver_ || device_solver_) {
+    return;
+  }
+  on_device([&] {
     device::HostCallbacks<Dim> callbacks = terrain_for_device(model_, parameters_.grid.cell);
     callbacks.columns = host_columns();
     callbacks.bed = host_bed();
     device_solver_ = make_solver_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
                                   particles_.size(), std::move(callbacks));
-  }
+    device_sums_->extremes = device_solver_->extremes();
+  });
+}
+
+template <int Dim>
+device::StepSums<Dim> Simulation<Dim>::step_on_device() {
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_solver_->sort_in_memory();
   }
@@ -59,6 +66,7 @@ device::StepSums<Dim> Simulation<Dim>::step_on_device() {
 
 template <int Dim>
 void Simulation<Dim>::advance_on_device() {
+  start_on_device();
   on_device([&] { *device_sums_ = step_on_device(); });
   const device::StepSums<Dim>& sums = *device_sums_;
   if (parameters_.mechanics.enabled) {
@@ -150,6 +158,7 @@ void Simulation<Dim>::release_device() {
 #define THAWSLIDE_INSTANTIATE(Dim)                                                           \
   template void Simulation<Dim>::use_device(const std::string&, device::SolverFactory<Dim>); \
   template void Simulation<Dim>::on_device(const std::function<void()>&) const;              \
+  template void Simulation<Dim>::start_on_device();                                          \
   template device::StepSums<Dim> Simulation<Dim>::step_on_device();                          \
   template void Simulation<Dim>::advance_on_device();                                        \
   template bool Simulation<Dim>::needs_no_host_check() const;                                \

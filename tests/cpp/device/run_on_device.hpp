@@ -36,6 +36,7 @@ class ForwardingSolver : public device::Solver<Dim> {
   explicit ForwardingSolver(std::unique_ptr<device::Solver<Dim>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim> step(double time, double dt) override { return steps_->step(time, dt); }
+  band::StepExtremes extremes() override { return steps_->extremes(); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return steps_->monitor(kernel); }
   void sample_map(const mpm::MapCells& cells, device::MapSample& sample) override { steps_->sample_map(cells, sample); }
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
