@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 import textwrap
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,7 +16,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from reproduction.engine import Task
-from reproduction.studies.grounds import GROUNDS, Ground, Variant, write_case
+from reproduction.studies.grounds import ALR, GROUNDS, Ground, Variant, write_case, write_dem
 from reproduction.studies.results import (
     AFFECTED,
     Numbered,
@@ -23,6 +24,7 @@ from reproduction.studies.results import (
     PointMass,
     numbers,
     point_mass,
+    on_grid,
     read_avaframe,
     read_thawslide,
 )
@@ -36,6 +38,7 @@ from thawslide.maps import Map, read_map
 
 SCRIPT = Path(__file__).resolve().parent / "run_com1dfa.py"
 AVAFRAME, THAWSLIDE = Variant("avaframe", ""), Variant("thawslide", "")
+CELLS = "alr-cells"  # folder of the ground that the cells of Thawslide represent, as a DEM
 QUICK = ("time.end=0.3", "time.output_interval=0.3")
 FIELDS = [("thickness", "maximum thickness (m, vertical)"), ("speed", "maximum speed (m/s)")]
 PAINTINGS = {"thickness": THICKNESS, "speed": SPEED}
@@ -115,18 +118,32 @@ def comparison_figure(
     return page.figure
 
 
+def task(place: Place, folder: Path, angle: float, variant: Variant) -> Task:
+    """Return a run of AvaFrame on the DEM and the release of a folder."""
+    command = (str(python_of(place)), "-I", str(SCRIPT), str(folder), str(angle), variant.name, *variant.changes)
+    inputs = (SCRIPT, folder / "dem.tif", folder / "release.json")  # -I: the folder of the script has an avaframe.py
+    return Task(f"{folder.name}/{variant.name}", command, folder / variant.name, inputs=inputs)
+
+
 def avaframe_tasks(place: Place) -> list[Task]:
     """Write the inputs; return the runs of AvaFrame."""
     tasks = []
     for ground in GROUNDS.values():
-        folder = place.runs / ground.name
         write_case(ground, ground.name, place.runs, place.data / "alr")
-        for variant in (AVAFRAME, *ground.avaframe):
-            words = (str(folder), str(ground.friction_angle), variant.name, *variant.changes)
-            command = (str(python_of(place)), "-I", str(SCRIPT), *words)  # -I: its folder has an avaframe.py
-            inputs = (SCRIPT, folder / "dem.tif", folder / "release.json")
-            tasks.append(Task(f"{ground.name}/{variant.name}", command, folder / variant.name, inputs=inputs))
+        folder = place.runs / ground.name
+        tasks += [task(place, folder, ground.friction_angle, each) for each in (AVAFRAME, *ground.avaframe)]
     return tasks
+
+
+def tasks_on_cells(place: Place) -> list[Task]:
+    """Write the ground that the cells of Thawslide represent as a DEM; return the run of AvaFrame on it."""
+    terrain, folder = read_map(place.runs / ALR.name / "dem.tif"), place.runs / CELLS
+    ground = on_grid(read_map(place.runs / ALR.name / "ground" / "maps" / "ground.tif"), terrain).values
+    folder.mkdir(exist_ok=True)
+    elevation = np.where(np.isfinite(ground), ground, terrain.values)
+    write_dem(folder / "dem.tif", elevation, (terrain.grid.box[0], terrain.grid.box[2]))
+    shutil.copy(place.runs / ALR.name / "release.json", folder / "release.json")
+    return [task(place, folder, ALR.friction_angle, AVAFRAME)]
 
 
 def thawslide_jobs(place: Place) -> list[Job]:
@@ -136,7 +153,9 @@ def thawslide_jobs(place: Place) -> list[Job]:
         for ground in GROUNDS.values()
         for each in (THAWSLIDE, *ground.thawslide)
     ]
-    return [replace(job, sets=(*job.sets, *QUICK)) for job in jobs] if place.is_quick else jobs
+    jobs = [replace(job, sets=(*job.sets, *QUICK)) for job in jobs] if place.is_quick else jobs
+    grounds = str(place.runs / ALR.name / f"{ALR.name}.toml")
+    return [*jobs, Job(f"{ALR.name}/ground", "", ("maps.cell=5", "time.end=0.1"), grounds)]
 
 
 def python_of(place: Place) -> Path:
@@ -163,6 +182,9 @@ def section(ground: Ground, place: Place) -> str:
     for field, words in FIELDS:
         drawn = comparison_figure(ground, terrain, corners, [avaframe, *own], field, words)
         drawn.savefig(place.page(f"docs/comparison/{ground.name}-{field}.png"), dpi=150)
+    if ground is ALR:
+        cells = read_map(place.runs / CELLS / "dem.tif")
+        variants.append(read_avaframe(place.runs / CELLS, cells, words="on the ground of Thawslide's cells"))
     outcomes = [avaframe, *own, *variants]
     coefficient = math.tan(math.radians(ground.friction_angle))
     found = [numbers(outcome, terrain, corners) for outcome in outcomes]
@@ -187,7 +209,7 @@ STUDY = Study(
     ("docs/comparison.md",),
     15.0,
     write,
-    (avaframe_tasks, thawslide_jobs),
+    (avaframe_tasks, thawslide_jobs, tasks_on_cells),
     needs,
     "Install AvaFrame: python3 -m venv build/avaframe && build/avaframe/bin/pip install avaframe==2.1. Or give its "
     "virtual environment with --avaframe. cases/alr/README.md states the source of the data.",

@@ -85,10 +85,10 @@ def plane_profile(x: np.ndarray) -> np.ndarray:
     return np.where(x < foot - half, slope * (foot - x), rounded)
 
 
-def write_dem(file: Path, elevation: np.ndarray) -> None:
-    """Write elevations [m], rows from south to north, as a GeoTIFF."""
+def write_dem(file: Path, elevation: np.ndarray, corner: tuple[float, float] = (WEST, SOUTH)) -> None:
+    """Write elevations [m], rows from south to north, as a GeoTIFF; `corner` is the lower left one."""
     rows, columns = elevation.shape
-    place = from_origin(WEST, SOUTH + POINT * rows, POINT, POINT)
+    place = from_origin(corner[0], corner[1] + POINT * rows, POINT, POINT)
     options = {"driver": "GTiff", "count": 1, "dtype": "float64", "crs": CRS, "transform": place, "nodata": -9999.0}
     with rasterio.open(file, "w", width=columns, height=rows, **options) as raster:
         raster.write(elevation[::-1], 1)
