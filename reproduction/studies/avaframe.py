@@ -23,8 +23,8 @@ from reproduction.studies.results import (
     Outcome,
     PointMass,
     numbers,
-    point_mass,
     on_grid,
+    point_mass,
     read_avaframe,
     read_thawslide,
 )
