@@ -27,10 +27,9 @@ PROGRAMS = (
     ("test_verification", "*"),
     (
         "test_sim",
-        "FreeFall.*:Incline.*:Bar.*:AdiabaticBand.*:BlockModel.Agrees*:CutCells.*:VelocityFilter.DampsAWave*",
+        "FreeFall.*:Incline.*:Bar.*:AdiabaticBand.*:BlockModel.Agrees*:VelocityFilter.DampsAWave*",
     ),
     ("test_physics", "MohrCoulomb.ReturnSolves*:Softening.*"),
-    ("test_terrain", "HeightField.ErrorsFall*"),
     ("test_gis", "ReleaseVolume.*"),
     (
         "test_long",
@@ -38,7 +37,7 @@ PROGRAMS = (
         "FineCylinderSection.*:FineBarCollapse.*:SpreadingBlock.*:SofteningSlope.*:FollowingChannels.*",
     ),
 )
-QUICK = (("test_physics", "MohrCoulomb.ReturnSolves*"), ("test_terrain", "HeightField.ErrorsFall*"))
+QUICK = (("test_physics", "MohrCoulomb.ReturnSolves*"), ("test_gis", "ReleaseVolume.*"))
 # Topics: their comparisons, and the suites of tests that belong to them.
 TOPICS = {
     "Motion and stress": (
@@ -53,7 +52,7 @@ TOPICS = {
     "Terrain from a DEM": (
         "planes, V and U channels, rough terrain, the edge of a DEM; volume of a release",
         "PlaneOnDem PlanesOnDem VChannelOnDem VChannelsOnDem UChannelOnDem ExtrudedProfile RuggedDem RoughDem "
-        "RoughDems LeavingDem HeightField ReleaseVolume",
+        "RoughDems LeavingDem ReleaseVolume",
     ),
     "Cells that follow the ground": (
         "linear fields and rigid translation; slabs and spreading blocks on planes; channels, walls, a cliff; the "
@@ -79,7 +78,7 @@ TOPICS = {
     ),
     "Basal layer": (
         "slip with thermal pressurization (Rice), arrest or runaway, independence of the mesh, rigid-block model",
-        "SlipOnPlane ArrestOrRunaway BandColumnsVerification AdiabaticBand CutCells BlockModel",
+        "SlipOnPlane ArrestOrRunaway BandColumnsVerification AdiabaticBand BlockModel",
     ),
     "Entrainment": ("balance of momentum and energy of a block that entrains its bed", "Entrainment"),
     "Energy budget": ("order of the residual in the time step", "InclineEnergy WholeIncline"),
