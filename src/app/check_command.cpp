@@ -42,7 +42,7 @@ run::GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& 
       facts.unavailable_reason = "the run ends before a step on it could be timed";
       return facts;
     }
-    facts.seconds = run::measured_step_seconds<Dim>(simulation) * steps;
+    facts.seconds = run::cost_on_device<Dim>(simulation, steps).processor;
     facts.used = facts.free - run::detect_gpu().free;
   } catch (const std::runtime_error& error) {  // the CPU results remain valid
     facts.unavailable_reason = error.what();
@@ -130,7 +130,7 @@ int check_case(const CheckOptions& options) {
       }
     };
     try {
-      facts.seconds = run::measured_step_seconds<Dim>(simulation) * facts.steps;
+      facts.cost = run::cost_on_cpu<Dim>(simulation, facts.steps);
       facts.gpu = gpu_facts<Dim>(simulation, records, facts.steps);
     } catch (const RunError& error) {  // earlier facts remain valid
       facts.error = error.what();

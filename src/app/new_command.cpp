@@ -11,11 +11,10 @@
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "run/input_files.hpp"
+#include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
-#include "run/setup_warnings.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
@@ -187,17 +186,10 @@ std::string without_places(std::string message, const std::string& file) {
   return message;
 }
 
-// Estimated cost of a run to time.end.
-struct RunCost {
-  double steps = 0.0;
-  double seconds = 0.0;  // wall-clock time
-  int threads = 1;
-};
-
 // The first lines state the proposed cell and its cost. The other lines state the named resolutions except `chosen`;
 // their times follow from that cost and the cells, unless so few particles run that they take no time. chosen: a name,
 // or empty if the user specified the cell.
-std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const RunCost& cost) {
+std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const run::RunCost& cost) {
   constexpr double fewest_timed_particles = 1000.0;
   std::string errors, others;
   for (const config::ResolutionFacts& each : config::resolutions) {
@@ -207,28 +199,27 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
     }
     const double cell =
         config::cell_of(each.resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
-    const double seconds = cost.seconds * config::run_time_factor(proposal.cell, cell, 3);
+    const double seconds = cost.processor * config::run_time_factor(proposal.cell, cell, 3);
     const bool is_timed = proposal.particles >= fewest_timed_particles;
     others += fmt::format("             --resolution {}: cells of {:g} m{}; {}\n", each.name, cell,
                           is_timed ? ", about " + duration_text(seconds) : "", each.errors);
   }
   return fmt::format(
-      "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {} on {} "
-      "thread{}\n{}",
+      "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {}\n{}",
       chosen.empty() ? "" : chosen + ", ", proposal.cell, errors, rounded_text(proposal.particles),
-      rounded_text(cost.steps), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
+      rounded_text(cost.steps), run::text_of(cost), others);
 }
 
 // Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
 // that refuse the case before its first step.
-std::optional<RunCost> cost_of_run(const fs::path& folder) {
+std::optional<run::RunCost> cost_of_run(const fs::path& folder) {
   try {
     const config::Case made = config::read_case(folder);
     sim::Simulation<3> simulation(made, gis::load_site(made).site);
     sim::RunRecords<3> records(simulation, simulation.site());
     records.start(simulation);
     const double steps = run::steps_to_end(simulation);
-    return RunCost{steps, run::measured_step_seconds(simulation) * steps, thread_count()};
+    return run::cost_on_cpu(simulation, steps);
   } catch (const RunError&) {
     return {};  // the case is kept; `check` and `run` report the reason
   } catch (const UserError& error) {
@@ -277,7 +268,7 @@ int make_new_case(const NewOptions& options) {
   write_cropped_dem(folder / input.dem_file, site, proposal);
   copy_release(folder, trial);
   write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
-  const std::optional<RunCost> cost = cost_of_run(folder);
+  const std::optional<run::RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
   fmt::print("{}: a release of {} m3, {} m thick, on {} m cells\n", (folder / "case.toml").string(),

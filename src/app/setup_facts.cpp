@@ -210,8 +210,7 @@ std::string text_of(const SetupFacts& facts) {
   }
   text += text_of(facts.disk, facts.free_disk);
   if (facts.error.empty()) {
-    text += fmt::format("  time        about {} on {} thread{} (measured on the first steps)\n",
-                        duration_text(facts.seconds), facts.threads, facts.threads == 1 ? "" : "s");
+    text += fmt::format("  time        about {}\n", run::text_of(facts.cost));
     text += text_of(facts.gpu);
   }
   if (!facts.picture.empty()) {
@@ -243,7 +242,8 @@ std::string json_of(const SetupFacts& facts) {
   json["memory"] = json_of(facts.memory, facts.available);
   json["maps"] = facts.maps.empty() ? Json() : json_of(facts.maps.front());
   json["disk"] = json_of(facts.disk, facts.free_disk, facts.disk_folder);
-  json["wall_s"] = std::isfinite(facts.seconds) ? Json(facts.seconds) : Json();
+  json["processor_s"] = std::isfinite(facts.cost.processor) ? Json(facts.cost.processor) : Json();
+  json["slowdown"] = facts.cost.slowdown;
   json["threads"] = facts.threads;
   json["gpu"] = facts.error.empty() ? json_of(facts.gpu) : Json();
   json["picture"] = facts.picture.empty() ? Json() : Json(facts.picture);

@@ -1,7 +1,6 @@
 // Findings of `thawslide check`, reported with the same content as text and as JSON.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "config/site.hpp"
 #include "run/device_choice.hpp"
 #include "run/disk_need.hpp"
+#include "run/run_cost.hpp"
 #include "sim/body_figures.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/time_step.hpp"
@@ -44,9 +44,9 @@ struct SetupFacts {
   AvailableMemory available;
   std::vector<MapFacts> maps;  // one in 3D, none in 2D
   run::DiskNeed disk;
-  double free_disk = 0.0;                                     // [bytes]
-  std::string disk_folder;                                    // folder of the run
-  double seconds = std::numeric_limits<double>::quiet_NaN();  // wall-clock time, estimated from the first steps
+  double free_disk = 0.0;   // [bytes]
+  std::string disk_folder;  // folder of the run
+  run::RunCost cost;
   int threads = 1;
   run::GpuFacts gpu;
   std::string error;    // of the first steps; empty if there is none

@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 
 #include "app/print.hpp"
 #include "app/process.hpp"
+#include "base/clocks.hpp"
 #include "base/rounding.hpp"
 
 namespace thawslide::app {
@@ -19,13 +19,6 @@ constexpr double seconds_between_bars = 0.2;
 constexpr double seconds_between_lines = 10.0;
 constexpr double fraction_between_lines = 0.1;
 constexpr int bar_width = 24;
-
-// CPU time of this thread: the cost of a line, independent of the load of the machine.
-double thread_seconds() {
-  timespec spent{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -53,7 +46,7 @@ bool Terminal::wants_progress(double time, double end) {
   const bool is_due = is_terminal_
                           ? passed >= seconds_between_bars
                           : fraction - last_fraction_ >= fraction_between_lines || passed >= seconds_between_lines;
-  begun_ = thread_seconds();
+  begun_ = thread_clock();
   return is_due && passed >= least_work_between * work_;
 }
 
@@ -77,7 +70,7 @@ void Terminal::progress(const run::ProgressState& state) {
     print_text("{:3.0f} % | {}\n", 100.0 * fraction, text);
   }
   last_ = Clock::now();
-  work_ = thread_seconds() - begun_;
+  work_ = thread_clock() - begun_;
   last_fraction_ = fraction;
 }
 

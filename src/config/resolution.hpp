@@ -45,7 +45,8 @@ struct BodyOnCells {
 
 enum class Resolution { quick, standard, fine };
 
-// A named resolution and its errors on a plane that runs out, with FLIP (docs/theory/contact.md).
+// A named resolution and its errors on a plane that runs out, with APIC, against the limit for small
+// cells (docs/refinement.md).
 struct ResolutionFacts {
   Resolution resolution;
   const char* name;
@@ -53,9 +54,9 @@ struct ResolutionFacts {
 };
 
 inline constexpr std::array<ResolutionFacts, 3> resolutions{
-    {{Resolution::quick, "quick", "errors of 1 % (travel) and 11 % (areas) on a plane"},
-     {Resolution::standard, "standard", "errors of 0.5 % (travel) and 4 % (areas) on a plane"},
-     {Resolution::fine, "fine", "errors of 0.3 % (travel) and 2 % (areas) on a plane"}}};
+    {{Resolution::quick, "quick", "errors of 1 % (travel) and 7 % (areas) on a plane"},
+     {Resolution::standard, "standard", "errors of 0.4 % (travel) and 2 % (areas) on a plane"},
+     {Resolution::fine, "fine", "errors of 0.2 % (travel) and 1 % (areas) on a plane"}}};
 
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);

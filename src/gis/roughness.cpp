@@ -317,10 +317,11 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
 namespace {
 
 // Cells that follow the terrain average it. On terrain with bumps and without a filter of their size, each cell has its
-// own ground.
+// own ground, unless cells are as small as the distance of the points.
 std::string note_of_ground(const config::Roughness& found) {
   constexpr double slope_of_smooth_ground = 0.01;
-  if (found.bump_slope < slope_of_smooth_ground || found.width >= found.cell * (1.0 - 1e-9)) {
+  const double resolved = std::max(found.width, found.spacing);
+  if (found.bump_slope < slope_of_smooth_ground || resolved >= found.cell * (1.0 - 1e-9)) {
     return "";
   }
   return fmt::format(

@@ -2,10 +2,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <ctime>
 #include <map>
 
 #include "base/atomic_file.hpp"
+#include "base/clocks.hpp"
 #include "config/input_limits.hpp"
 #include "io/files.hpp"
 #include "io/vtkhdf.hpp"
@@ -173,9 +173,7 @@ void SnapshotSeries::add(Snapshot snapshot) {
     const std::vector<std::byte> bytes = snapshot_bytes(snapshot);
     snapshot = {};
     write_file_atomically(file, bytes.data(), bytes.size());
-    timespec spent{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-    return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+    return thread_clock();
   });
   entries_.push_back(entry);
 }

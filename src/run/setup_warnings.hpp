@@ -1,4 +1,4 @@
-// Facts about a case before it runs: unusual or probably unintended values, and the estimated run time.
+// Facts about a case before it runs: unusual or probably unintended values.
 #pragma once
 
 #include "run/warnings.hpp"
@@ -10,13 +10,5 @@ namespace thawslide::run {
 template <int Dim>
 void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vector<sim::BodyFigures>& bodies,
                         Warnings& warnings);
-
-// Number of steps of a run if all are as long as the first one.
-template <int Dim>
-[[nodiscard]] double steps_to_end(sim::Simulation<Dim>& simulation);
-
-// Wall-clock seconds per step, measured on some steps, which advance the simulation.
-template <int Dim>
-[[nodiscard]] double measured_step_seconds(sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::run

@@ -9,6 +9,7 @@
 #include "run/disk_need.hpp"
 #include "run/input_guard.hpp"
 #include "run/map_files.hpp"
+#include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
 #include "run/setup_warnings.hpp"
 

@@ -55,9 +55,10 @@ def test_a_filter_narrower_than_a_cell_that_follows_the_terrain_is_noted(thawsli
     def notes(*words: object) -> list[str]:
         return [note for note in thawslide.json("check", rough_case, *words)["warnings"] if "ground further" in note]
 
-    (note,) = notes(*sets(terrain__smooth=9.5))
-    assert note.startswith("note: terrain.smooth is 9.5 m and grid.cell 10 m: cells larger than the filter")
-    assert notes(*sets(terrain__smooth=10)) == []
+    (note,) = notes(*sets(grid__cell=20, terrain__smooth=19.5))
+    assert note.startswith("note: terrain.smooth is 19.5 m and grid.cell 20 m: cells larger than the filter")
+    assert notes(*sets(grid__cell=20, terrain__smooth=20)) == []
+    assert notes(*sets(grid__cell=10, terrain__smooth=5)) == []  # cells of the distance of the points
 
 
 def test_new_does_not_change_the_dem(rough_case: Path) -> None:

@@ -1,0 +1,32 @@
+// Estimated cost of a run, from its first steps.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "sim/simulation.hpp"
+
+namespace thawslide::run {
+
+struct RunCost {
+  double steps = 0.0;
+  double processor = std::numeric_limits<double>::quiet_NaN();  // time of one thread [s]
+  double slowdown = 1.0;  // wall-clock over processor time of the measured steps; larger if other processes run
+};
+
+// Number of steps of a run if all are as long as the first one.
+template <int Dim>
+[[nodiscard]] double steps_to_end(sim::Simulation<Dim>& simulation);
+
+// Cost of this number of steps. Steps on one thread, which advance the simulation, are timed by the clock of the
+// thread, because wall-clock time depends on other processes.
+template <int Dim>
+[[nodiscard]] RunCost cost_on_cpu(sim::Simulation<Dim>& simulation, double steps);
+// The same on a device; processor is wall-clock time.
+template <int Dim>
+[[nodiscard]] RunCost cost_on_device(sim::Simulation<Dim>& simulation, double steps);
+
+// "3 min of processor time", and whether the machine is busy.
+[[nodiscard]] std::string text_of(const RunCost& cost);
+
+}  // namespace thawslide::run
