@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from reproduction.engine import Task
@@ -32,7 +31,16 @@ from reproduction.study import ROOT, Job, Place, Study
 from reproduction.tables import markdown, text_of
 from thawslide.figures.colours import SPEED, THICKNESS, label_bar, normalization, thickness_words
 from thawslide.figures.map_page import MapPage
-from thawslide.figures.map_panel import box_about, colour_map, covered_box, make_scene, outline, paint, scale_bar
+from thawslide.figures.map_panel import (
+    box_about,
+    colour_map,
+    covered_box,
+    make_scene,
+    outline,
+    paint,
+    quiet_corner,
+    scale_bar,
+)
 from thawslide.figures.style import styled
 from thawslide.maps import Map, read_map
 
@@ -74,46 +82,32 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     return markdown([["", *columns], *rows])
 
 
-def differences(first: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Return other minus first; nan in cells that neither reached, 0 for the program that did not reach a cell."""
-    both = np.nan_to_num(other) - np.nan_to_num(first)
-    return np.where(np.isfinite(first) | np.isfinite(other), both, np.nan)
-
-
 @styled
 def comparison_figure(
     ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], field: str, words: str
 ) -> Figure:
-    """Plot a field of each program over the terrain, and the differences from the first."""
+    """Plot a field of each run over the terrain, on one scale."""
     places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
     scene = make_scene(terrain, box_about([place for place in places if place is not None]))
-    note = f"Outline: maximum thickness of at least {AFFECTED} m. Blue line: release. Differences: 0 for a program "
-    note += f"without material in a cell. {scene.note()}"
-    page = MapPage(f"{ground.title}: {words}", scene, 2 * len(outcomes) - 1, note=note, foot=0.0, bar=0.62)
+    note = f"Colours and outline: maximum thickness of at least {AFFECTED} m. Blue line: release. {scene.note()}"
+    page = MapPage(f"{ground.title}: {words}", scene, len(outcomes), note=note, foot=0.72)
     shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
     norm, extend = normalization(np.concatenate([values.ravel() for values in shown]), PAINTINGS[field])
     painter = ScalarMappable(norm, colour_map(PAINTINGS[field].colours))
-    changes = [differences(shown[0], values) for values in shown[1:]]
-    most = float(np.nanquantile(np.abs(np.concatenate([change.ravel() for change in changes])), 0.998))
-    change_painter = ScalarMappable(Normalize(-most, most), "RdBu_r")
-    names = [outcome.program.split(", ")[-1] for outcome in outcomes]
-    drawn = [(values, painter, name) for values, name in zip(shown, names, strict=True)]
-    # Letters, because two names do not fit above a narrow panel.
-    drawn += [(change, change_painter, f"{letter} − a") for change, letter in zip(changes, "bcdefg", strict=False)]
+    corner = quiet_corner(max(outcomes, key=lambda each: np.count_nonzero(each.thickness.values >= AFFECTED)).thickness,
+                          scene.box)  # fmt: skip
     panels = []
-    for number, (values, colours, name) in enumerate(drawn):
+    for number, (values, outcome) in enumerate(zip(shown, outcomes, strict=True)):
         axes = page.panel(number, labels=False)
-        paint(axes, Map(terrain.grid, values), colours)
-        outcome = outcomes[number if number < len(outcomes) else number - len(outcomes) + 1]
+        paint(axes, Map(terrain.grid, values), painter)
         outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
         axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
-        panels.append((axes, name, ""))
-        bar = page.figure.colorbar(colours, cax=page.panel_bar(axes), extend=extend if colours is painter else "both")
-        if colours is painter:
-            label_bar(bar, norm)
-            if field == "thickness":
-                bar.set_label(thickness_words(norm).replace("thickness (m)", "m").replace("; ", "\n"), labelpad=2)
-        scale_bar(axes, "lower left")
+        panels.append((axes, outcome.short_name, ""))
+        if number == 0:
+            scale_bar(axes, corner)
+    bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
+    label_bar(bar, norm)
+    bar.set_label(thickness_words(norm) if field == "thickness" else words, labelpad=1)
     page.set_titles(panels)
     return page.figure
 
@@ -179,13 +173,13 @@ def section(ground: Ground, place: Place) -> str:
         read_avaframe(folder, terrain, each.name, each.words) for each in (AVAFRAME, *ground.avaframe)
     )
     own = [read_thawslide(folder, terrain, each.name, each.words) for each in (THAWSLIDE, *ground.thawslide)]
-    for field, words in FIELDS:
-        drawn = comparison_figure(ground, terrain, corners, [avaframe, *own], field, words)
-        drawn.savefig(place.page(f"docs/comparison/{ground.name}-{field}.png"), dpi=150)
     if ground is ALR:
         cells = read_map(place.runs / CELLS / "dem.tif")
-        variants.append(read_avaframe(place.runs / CELLS, cells, words="on the ground of Thawslide's cells"))
+        variants.append(read_avaframe(place.runs / CELLS, cells, words="same ground"))
     outcomes = [avaframe, *own, *variants]
+    for field, words in FIELDS:
+        drawn = comparison_figure(ground, terrain, corners, outcomes, field, words)
+        drawn.savefig(place.page(f"docs/comparison/{ground.name}-{field}.png"), dpi=150)
     coefficient = math.tan(math.radians(ground.friction_angle))
     found = [numbers(outcome, terrain, corners) for outcome in outcomes]
     point = point_mass(terrain, corners, coefficient) if ground.is_straight else None

@@ -46,8 +46,8 @@ class Ground:
 
 INVISCID = Variant("avaframe-inviscid", "no artificial viscosity", ("viscOption=0",))
 NO_PRESSURE = Variant("avaframe-no-pressure", "no pressure gradient", ("sphOption=0",))
-WIDE = Variant("thawslide-wide", "DEM filtered by 10 m", ("terrain.smooth=10",))
-ROUGH = Variant("thawslide-rough", "unfiltered DEM", ("terrain.smooth=0",))
+WIDE = Variant("thawslide-wide", "filter of 10 m", ("terrain.smooth=10",))
+ROUGH = Variant("thawslide-rough", "no filter", ("terrain.smooth=0",))
 
 PLANE = Ground(
     "plane",

@@ -34,6 +34,12 @@ class Outcome:
     left_share: float  # fraction of it that left the DEM
     processor: float  # time on one core [s]
 
+    @property
+    def short_name(self) -> str:
+        """Name of the program without its version, and what differs in this run."""
+        name, *words = self.program.split(", ", 1)
+        return ", ".join([name.split()[0], *words])
+
 
 def without_gaps(field: Map) -> Numbers:
     """Return the values of a map, 0 in cells that the slide did not reach."""

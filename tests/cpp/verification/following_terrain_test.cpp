@@ -224,10 +224,11 @@ class Pool {
 };
 
 TEST(FollowingTerrain, APoolRemainsAtRest) {
-  Record record("Cells that follow the ground: a pool with a level surface",
-                "A pool without cohesion, up to 40 m deep, rests on noise of 1 m rms on points 5 m apart, or in a V of "
-                "slopes of 0.4; cells of 10 m. Particles have the friction angle of the ground.",
-                "no motion; pressure rho g h", "hydrostatics");
+  Record record(
+      "Cells that follow the ground: a pool with a level surface",
+      "A pool without cohesion, up to 40 m deep, rests on noise or in a V. The noise is 1 m rms on points 5 m "
+      "apart, and the slopes of the V are 0.4; cells of 10 m. Particles have the friction angle of the ground.",
+      "no motion; pressure rho g h", "hydrostatics");
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 0.1 * Pool::cell);
   std::vector<std::pair<double, double>> rough;
