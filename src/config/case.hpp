@@ -361,6 +361,10 @@ struct Case {
   Report report;
 };
 
+// Whether the ground is a profile or a DEM.
+inline bool has_terrain(const Case& parameters) {
+  return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
+}
 inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
 inline bool guards_remove(const Case& parameters) {
   return parameters.guards.not_finite == Policy::remove || parameters.guards.volume == Policy::remove;

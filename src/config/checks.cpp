@@ -51,7 +51,8 @@ void check_grid(const Case& checked, Reading& reading) {
                                         grid.cell, length, axis_names[a], fewest_cells));
       return;
     }
-    if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
+    const bool begins_at_terrain = a + 1 == static_cast<std::size_t>(checked.general.dimension) && has_terrain(checked);
+    if (!begins_at_terrain && std::abs(cells - std::round(cells)) > 1e-6 * cells) {
       // A cell that fits this axis alone would be refused for another one.
       const double fitting = fitting_cell_near(grid.cell, lengths_of_domain(checked));
       reading.report_misfit({"grid.max", "grid.cell", "grid.min"},

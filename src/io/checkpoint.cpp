@@ -14,7 +14,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
-constexpr std::uint64_t format_version = 10;
+constexpr std::uint64_t format_version = 11;
 
 class Writer {
  public:

@@ -5,6 +5,7 @@
 #include "sim/bodies_apart.hpp"
 #include "sim/body_warnings.hpp"
 #include "sim/map_grid.hpp"
+#include "sim/model.hpp"
 #include "sim/unresolved_terrain.hpp"
 
 namespace thawslide::run {
@@ -16,6 +17,7 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
   warnings.add(sim::warning_of_map_cell(parameters, simulation.site()));
   warnings.add(config::notices(parameters));
   warnings.add(config::warning_of_late_values(parameters));
+  warnings.add(sim::note_of_bottom(parameters, simulation.site()));
   warnings.add(sim::body_warnings(parameters, bodies));
   warnings.add(sim::warning_of_bodies_apart(simulation));
   warnings.add(sim::warnings_of_unresolved_terrain(simulation, bodies));
