@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
-from conftest import ROOT, Program, Ran, history
-from terrain_files import toml
+import numpy as np
+import pytest
+from conftest import ROOT, Program, Ran, datasets, history, sets, snapshot_files
+from terrain_files import EAST, place, toml, write_dem, write_release
 
 GLACIER = toml("""
 [substrate.glacier] x_min = 12.0 | friction = "coefficient" | friction_coefficient = 0.12
@@ -80,3 +82,78 @@ def test_block_has_one_width(thawslide: Program) -> None:
     assert message.endswith(
         "wide-valley.toml:6:9: the block model has one width. Give case.width as a number, or use `thawslide run`.\n"
     )
+
+
+# A stiff block slides down a slope, without friction up to a substrate. While the block crosses the border, the
+# friction work grows with the square of the distance, and then in proportion to it. The line of the second part begins
+# where the middle of the load reaches the border at which the substrate acts.
+BLOCK = toml("""
+[case] title = "Onto a substrate"
+[time] stepping = "adaptive" | output_interval = 10.0 | history_interval = 0.05
+[grid] cell = 5.0
+[basal] friction = "coefficient" | friction_coefficient = 0.0
+[substrate.far] friction = "coefficient" | friction_coefficient = 0.02
+[material.rock] law = "elastic" | youngs_modulus = 5.0e8 | poisson_ratio = 0.2 | viscosity_time = 0.02
+[body.block] material = "rock" | temperature = -1.0 | porosity = 0.3
+""")
+BLOCK_CELL, LONG, HIGH = 5.0, 20.0, 5.0  # m; length along x, height
+
+
+def distance_beyond(
+    border: float, thawslide: Program, folder: Path, slope: float, elevation: float, **keys: object
+) -> float:
+    """Run the block down a plane [radians]; return how far beyond a border the substrate acts, along x [m].
+
+    `elevation`: of the plane at x = 0.
+    """
+    (folder / "case.toml").write_text(BLOCK)
+    thawslide.ok("run", folder / "case.toml", "--output", folder / "run", "--threads", "1", *sets(**keys))
+    particles = datasets(snapshot_files(folder / "run")[0])
+    mass, points = particles["VTKHDF/PointData/mass"], particles["VTKHDF/Points"]
+    centre = mass @ points[:, : 2 if points[:, 2].max() == 0.0 else 3] / mass.sum()
+    above = centre[-1] - (elevation - np.tan(slope) * centre[0])
+    middle = centre[0] - above * np.cos(slope) * np.sin(slope)  # of the load, below the centre along the normal
+    columns = history(folder / "run")
+    along, work = columns["mean_displacement_m"] * np.cos(slope), columns["friction_work_J"]
+    is_across = middle + along > border + LONG / 2.0 + 3.0 * BLOCK_CELL
+    assert is_across.sum() > 10
+    force, offset = np.polyfit(along[is_across], work[is_across], 1)
+    return float(middle - offset / force - border)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0])
+@pytest.mark.parametrize("border", [65.01, 67.5, 69.99])
+def test_a_substrate_of_a_section_acts_where_it_begins(
+    thawslide: Program, tmp_path: Path, degrees: float, border: float
+) -> None:
+    slope = np.radians(degrees)
+    down, up = np.array([np.cos(slope), -np.sin(slope)]), np.array([np.sin(slope), np.cos(slope)])
+    foot = np.array([30.0, -30.0 * np.tan(slope)])
+    corners = [foot, foot + LONG * down, foot + LONG * down + HIGH * up, foot + HIGH * up]
+    keys = {
+        "case__gravity_tilt": -degrees, "time__end": 4.5, "grid__min": [0.0, -200.0], "grid__max": [150.0, 50.0],
+        "terrain__type": '"plane"', "terrain__slope": degrees, "terrain__elevation": 0.0,
+        "substrate__far__x_min": border, "body__block__shape": '"polygon"',
+        "body__block__vertices": [list(map(float, corner)) for corner in corners],
+        "body__block__velocity": list(map(float, 15.0 * down / np.cos(slope))),
+    }  # fmt: skip
+    assert abs(distance_beyond(border, thawslide, tmp_path, slope, 0.0, **keys)) < 0.51 * BLOCK_CELL
+
+
+@pytest.mark.parametrize("border", [65.01, 69.99])
+def test_a_substrate_of_a_map_acts_where_it_is_drawn(thawslide: Program, tmp_path: Path, border: float) -> None:
+    slope, turn = np.radians(30.0), 0.4  # of the border, in x per y
+    dem = write_dem(tmp_path / "dem.tif", lambda x, y: 300.0 - np.tan(slope) * x, columns=30, rows=14)
+    release = write_release(tmp_path / "release.geojson", [(30.0, 60.0), (50.0, 60.0), (50.0, 80.0), (30.0, 80.0)])
+    at = [border - 70.0 * turn, border + 70.0 * turn]  # at the edges of the DEM, 70 m from the middle of the block
+    far = write_release(tmp_path / "far.geojson", [(at[0], 0.0), (280.0, 0.0), (280.0, 140.0), (at[1], 140.0)])
+    west, south = place(10.0, 10.0)
+    keys = {
+        "case__dimension": 3, "time__end": 7.0, "grid__min": [west, south, 100.0],
+        "grid__max": [west + 280.0, south + 120.0, 400.0], "terrain__type": '"dem"', "terrain__file": f'"{dem}"',
+        "substrate__far__outline": f'"{far}"', "body__block__shape": '"release"',
+        "body__block__release": f'"{release}"', "body__block__thickness": HIGH,
+        "body__block__placement": '"on_top"',
+    }  # fmt: skip
+    found = distance_beyond(EAST + border, thawslide, tmp_path, slope, 300.0 + np.tan(slope) * EAST, **keys)
+    assert abs(found) < 0.5 * BLOCK_CELL
