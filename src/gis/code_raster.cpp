@@ -1,5 +1,6 @@
 #include "gis/code_raster.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -18,11 +19,16 @@ namespace {
 
 std::string name_of_file(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
-void check_whole(const std::string& file, const Raster& codes) {
+// Removes round-off of values that are stored with a scale.
+void make_whole(const std::string& file, Raster& codes) {
+  constexpr double round_off = 1e-9;
   for (int row = 0; row < codes.rows; ++row) {
     for (int column = 0; column < codes.columns; ++column) {
-      const double code = codes.at(column, row);
-      if (!std::isnan(code) && code != std::round(code)) {
+      double& code = codes.values[codes.index(column, row)];
+      const double whole = std::round(code);
+      if (std::abs(code - whole) <= round_off * std::max(1.0, std::abs(code))) {
+        code = whole;
+      } else if (!std::isnan(code)) {
         throw UserError(
             fmt::format("{}: the raster holds {:g} at {}, {}; allowed: whole numbers, the codes of substrates. Check "
                         "that it is the right file.",
@@ -77,10 +83,10 @@ std::string format_fraction(const CodesFound::Points& points, const CodesFound& 
 
 Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file, const Raster& ground,
                   std::vector<std::string>& warnings) {
-  const Raster codes =
+  Raster codes =
       read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, warnings);
   return with_error_location(parameters, key, [&] {
-    check_whole(file, codes);
+    make_whole(file, codes);
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
     }

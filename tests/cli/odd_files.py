@@ -160,6 +160,21 @@ PLACES: dict[str, tuple[Callable[[Path, Numbers], Path], Expected]] = {
 }  # fmt: skip
 
 
+# Those that mean something else as the depth of a bed, which is needed in the whole domain.
+BEDS: dict[str, tuple[Callable[[Path, Numbers], Path], Expected]] = {
+    "mask": (masked, "the depth of the bed is missing"),
+    "opacity": (with_opacity, "the depth of the bed is missing"),
+}
+
+# Those that mean something else as codes of substrates, which have no unit.
+CODES: dict[str, tuple[Callable[[Path, Numbers], Path], Expected]] = {
+    **{name: (RASTERS[name][0], "allowed: whole numbers") for name in ("feet", "survey-feet", "kilometres")},
+    "heights-in-feet": (RASTERS["heights-in-feet"][0], "allowed: whole numbers"),
+    "centimetres": (RASTERS["centimetres"][0], "stands nowhere in the domain"),
+    "kelvin": (RASTERS["kelvin"][0], FULL),
+}
+
+
 def ring(box: tuple[float, float, float, float], clockwise: bool = True) -> Ring:
     """Return the closed ring of a box, in the coordinates of the DEM."""
     (x0, y0, x1, y1) = (WEST + box[0], SOUTH + box[1], WEST + box[2], SOUTH + box[3])
@@ -171,7 +186,7 @@ def shapefile(
     file: Path, records: list[list[Ring]], kind: int = 5, deleted: tuple[int, ...] = (), name: bytes = b"a",
     page: int = 0,
 ) -> Path:  # fmt: skip
-    """Write a Shapefile of polygons (ESRI Shapefile Technical Description, 1998), its table with a name each."""
+    """Write a Shapefile of polygons or lines (ESRI Shapefile Technical Description, 1998), each with a name."""
     shapes, index, at = b"", b"", 50
     for number, rings in enumerate(records, 1):
         points = np.array([corner for each in rings for corner in each])
@@ -181,7 +196,7 @@ def shapefile(
         if kind == 31:  # outer and inner rings
             body += struct.pack(f"<{len(rings)}i", *range(2, 2 + len(rings)))
         body += points.astype("<f8").tobytes()
-        if kind in (15, 25, 31):  # elevations or measures, with their range
+        if kind in (13, 15, 23, 25, 31):  # elevations or measures, with their range
             body += bytes(16 + 8 * len(points))
         index += struct.pack(">2i", at, len(body) // 2)
         shapes += struct.pack(">2i", number, len(body) // 2) + body
@@ -304,4 +319,26 @@ POLYGONS: dict[str, tuple[Callable[[Path], Path], Expected]] = {
     "empty.geojson": (lambda file: geojson(file, "Polygon", []), "has no geometry"),
     "crossing.geojson": (lambda file: geojson(file, "Polygon", [_CROSSING]), "crosses itself"),
     "flat.geojson": (lambda file: geojson(file, "Polygon", [[*ring(SQUARE)[:2], ring(SQUARE)[0]]]), "has no area"),
+}  # fmt: skip
+
+_LINE = [(WEST + 105.0, SOUTH + 255.0), (WEST + 305.0, SOUTH + 255.0), (WEST + 505.0, SOUTH + 255.0)]
+LENGTH = 400.0  # m
+
+# Files of one line, by name with suffix, with its length [m] or words of a message.
+LINES: dict[str, tuple[Callable[[Path], Path], Expected]] = {
+    "plain.geojson": (lambda file: geojson(file, "LineString", _LINE), LENGTH),
+    "multi.geojson": (lambda file: geojson(file, "MultiLineString", [_LINE]), LENGTH),
+    "with-z.geojson": (lambda file: geojson(file, "LineString", [(*each, 7.0) for each in _LINE]), LENGTH),
+    "plain.shp": (lambda file: shapefile(file, [[_LINE]], kind=3), LENGTH),
+    "with-z.shp": (lambda file: shapefile(file, [[_LINE]], kind=13), LENGTH),
+    "with-m.shp": (lambda file: shapefile(file, [[_LINE]], kind=23), LENGTH),
+    "deleted.shp": (lambda file: shapefile(file, [[_LINE], [_FAR]], kind=3, deleted=(1,)), LENGTH),
+    "degrees.geojson": (lambda file: geojson(file, "LineString", reprojected(_LINE, "EPSG:4326"), None), LENGTH),
+    "projected.geojson": (
+        lambda file: geojson(file, "LineString", reprojected(_LINE, "EPSG:3857"), "EPSG:3857"), LENGTH,
+    ),
+    "two.geojson": (lambda file: geojson(file, "MultiLineString", [_LINE, _LINE[::-1]]), "has 2 lines"),
+    "polygon.geojson": (lambda file: geojson(file, "Polygon", [ring(SQUARE)]), "has no lines"),
+    "empty.geojson": (lambda file: geojson(file, "LineString", []), "has no geometry"),
+    "raster.tif": (lambda file: raster(file, heights()), "the file is a raster"),
 }  # fmt: skip

@@ -3,8 +3,10 @@
 The table of files is in odd_files.py. A new command that reads such files belongs in the tables here.
 """
 
+import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import odd_files as odd
@@ -12,7 +14,7 @@ import pytest
 import rasterio
 from conftest import Program, columns_of, sets
 
-from thawslide import scarp
+from thawslide import Case, Simulation, UserError, scarp
 from thawslide.errors import ReportError
 from thawslide.scarps import Plane
 from thawslide.scarps.command import main as scarp_command
@@ -42,11 +44,39 @@ class Reader:
             raise RefusedError(outcome.stderr)
         return outcome.stdout
 
+    def setup(self, **keys: object) -> dict[str, Any]:
+        """Return what `check` reports of the case with keys replaced."""
+        checked: dict[str, Any] = json.loads(self.called("check", self.case, "--json", *sets(**keys)))
+        return checked
+
     def checked(self, **keys: object) -> float:
         """Return the volume of the case with keys replaced."""
-        self.called("check", self.case, *sets(**keys))
-        checked = self.program.json("check", self.case, *sets(**keys))
-        return float(checked["bodies"][0]["volume_m3"])
+        return float(self.setup(**keys)["bodies"][0]["volume_m3"])
+
+    def simulation(self, **keys: object) -> Simulation:
+        """Return a simulation in memory of the case with keys replaced."""
+        changes = {key.replace("__", "."): value for key, value in keys.items()}
+        try:
+            return Simulation(Case(self.case, {"grid.cell": 20.0, **changes}), threads=1, on_message=lambda _: None)
+        except UserError as error:
+            raise RefusedError(str(error)) from error
+
+    def simulated(self, **keys: object) -> float:
+        """Return the volume of the particles of a simulation."""
+        return float(self.simulation(**keys).field("volume").sum())
+
+    def block(self, plain: dict[str, object], **keys: object) -> float:
+        """Return the full volume if the rigid block moves as with the plain keys: its output has no volume."""
+        moved = self.folder / "block.csv"
+        self.called("block", self.case, "--output", moved, *sets(**keys, terrain__smooth=0))
+        self.program.ok("block", self.case, "--output", self.folder / "plain.csv", *sets(**plain, terrain__smooth=0))
+        found, expected = (columns_of(file)["velocity_m_s"] for file in (moved, self.folder / "plain.csv"))
+        return odd.FULL if expected[-1] > 5.0 and np.abs(found - expected).max() < 1e-3 else 0.0
+
+    def substrate(self, **keys: object) -> float:
+        """Return the area of a substrate, times the thickness of the square."""
+        law = {"substrate__ice__friction": "coefficient", "substrate__ice__friction_coefficient": 0.1}
+        return float(self.setup(**law, **keys)["substrates"][0]["covered"]) * odd.THICK
 
     def new(self, dem: Path, release: Path, *words: object) -> float:
         """Return the volume of a new case, whose DEM must have the elevations of the original."""
@@ -106,6 +136,15 @@ def section_with_dem(reader: Reader, file: Path) -> float:
     return odd.FULL if np.abs(terrain - (1500.0 - 0.5 * (105.0 + distance))).max() < 0.01 else 0.0
 
 
+def block_with_dem(reader: Reader, file: Path) -> float:
+    return reader.block({}, terrain__file=file)
+
+
+def simulation_with_dem(reader: Reader, file: Path) -> float:
+    surface = {"surface": str(reader.case.parent / "before.tif")}
+    return reader.simulated(terrain__file=str(file), terrain__smooth=0, body__slide__thickness=surface)
+
+
 def scarp_with_dem(reader: Reader, file: Path) -> float:
     return reader.scarp(file, reader.release)
 
@@ -120,6 +159,25 @@ def new_with_thickness(reader: Reader, file: Path) -> float:
 
 def check_with_thickness(reader: Reader, file: Path) -> float:
     return reader.checked(body__slide__thickness=f'{{ raster = "{file}" }}')
+
+
+def block_with_thickness(reader: Reader, file: Path) -> float:
+    return reader.block({}, body__slide__thickness=f'{{ raster = "{file}" }}')
+
+
+def simulation_with_thickness(reader: Reader, file: Path) -> float:
+    return reader.simulated(body__slide__thickness={"raster": str(file)})
+
+
+def simulation_with_bed(reader: Reader, file: Path) -> float:
+    """Return the volume of an erodible bed, by its mass."""
+    law = {"law": "strength", "strength": 1e6, "friction_angle": 20.0, "depth_per_slip": 0.1, "material": "rock_ice"}
+    keys = {f"bed__{key}": value for key, value in law.items()}
+    masses = [
+        reader.simulation(bed__depth={"raster": str(each)}, **keys).history["bed_mass_kg"].iloc[0]
+        for each in (file, odd.raster(reader.folder / "bed.tif", odd.thickness()))
+    ]
+    return float(odd.FULL * masses[0] / masses[1])
 
 
 def probability_of_thickness(reader: Reader, file: Path) -> float:
@@ -139,12 +197,41 @@ def check_with_polygons(reader: Reader, file: Path) -> float:
     return reader.checked(body__slide__release=file)
 
 
+def substrate_with_polygons(reader: Reader, file: Path) -> float:
+    return reader.substrate(substrate__ice__outline=file)
+
+
+def simulation_with_polygons(reader: Reader, file: Path) -> float:
+    return reader.simulated(body__slide__release=str(file))
+
+
 def scarp_with_polygons(reader: Reader, file: Path) -> float:
     return reader.scarp(reader.dem, file)
 
 
 def scarp_function_with_polygons(reader: Reader, file: Path) -> float:
     return reader.scarp_function(reader.dem, file)
+
+
+def substrate_with_codes(reader: Reader, file: Path) -> float:
+    return reader.substrate(substrate__ice__raster=file, substrate__ice__code=int(odd.THICK))
+
+
+def check_with_probe(reader: Reader, file: Path) -> float:
+    """Return the length for an accepted line: `check` does not report it."""
+    reader.setup(probe__gauge__line=file)
+    return odd.LENGTH
+
+
+def block_with_path(reader: Reader, file: Path) -> float:
+    """Return the length if the block moves as along the plain line."""
+    plain = odd.LINES["plain.geojson"][0](reader.folder / "line.geojson")
+    return odd.LENGTH * reader.block({"maps__path": plain}, maps__path=file) / odd.FULL
+
+
+def section_with_line(reader: Reader, file: Path) -> float:
+    reader.called("section", reader.folder / "made", "--dem", reader.dem, "--line", file)
+    return float(columns_of(reader.folder / "made" / "profile.csv")["distance_m"][-1])
 
 
 @pytest.fixture(scope="module")
@@ -165,14 +252,18 @@ def reader(thawslide: Program, tmp_path: Path, plain: Path, capsys: pytest.Captu
 
 
 WITH_DEM = [
-    new_with_dem, check_with_dem, run_with_dem, section_with_dem, scarp_with_dem,
-    scarp_function_with_dem,
+    new_with_dem, check_with_dem, run_with_dem, block_with_dem, simulation_with_dem, section_with_dem,
+    scarp_with_dem, scarp_function_with_dem,
 ]  # fmt: skip
-WITH_THICKNESS = [new_with_thickness, check_with_thickness, probability_of_thickness]
+WITH_THICKNESS = [
+    new_with_thickness, check_with_thickness, block_with_thickness, simulation_with_thickness, simulation_with_bed,
+    probability_of_thickness,
+]  # fmt: skip
 WITH_POLYGONS = [
-    new_with_polygons, check_with_polygons, scarp_with_polygons,
+    new_with_polygons, check_with_polygons, simulation_with_polygons, substrate_with_polygons, scarp_with_polygons,
     scarp_function_with_polygons,
 ]  # fmt: skip
+WITH_LINE = [check_with_probe, block_with_path, section_with_line]
 Read = Callable[[Reader, Path], float]
 
 
@@ -196,8 +287,22 @@ def test_dem(reader: Reader, read: Read, name: str) -> None:
 @pytest.mark.parametrize("name", odd.RASTERS)
 @pytest.mark.parametrize("read", WITH_THICKNESS, ids=lambda read: read.__name__)
 def test_thickness(reader: Reader, read: Read, name: str) -> None:
-    write, expected = odd.RASTERS[name]
+    write, expected = (odd.RASTERS | (odd.BEDS if read is simulation_with_bed else {}))[name]
     require(reader, read, write(reader.folder / "given" / "odd.tif", odd.thickness()), expected)
+
+
+@pytest.mark.parametrize("name", odd.RASTERS)
+def test_codes_of_a_substrate(reader: Reader, name: str) -> None:
+    write, expected = (odd.RASTERS | odd.CODES)[name]
+    file = write(reader.folder / "given" / "odd.tif", odd.thickness())
+    require(reader, substrate_with_codes, file, expected)
+
+
+@pytest.mark.parametrize("name", odd.LINES)
+@pytest.mark.parametrize("read", WITH_LINE, ids=lambda read: read.__name__)
+def test_line(reader: Reader, read: Read, name: str) -> None:
+    write, expected = odd.LINES[name]
+    require(reader, read, write(reader.folder / "given" / name), expected)
 
 
 @pytest.mark.parametrize("name", odd.POLYGONS)
