@@ -39,6 +39,23 @@ def test_a_failing_write_loses_nothing(binary: Path, small_case: Path, tmp_path:
     assert 5 in codes
 
 
+@needs_failing_writes
+@pytest.mark.parametrize(
+    ("reason", "words"), [("std", "a call of the system failed?[31m"), ("other", "an exception of unknown type")]
+)
+def test_last_resort_asks_for_a_report(
+    thawslide: Program, small_case: Path, tmp_path: Path, reason: str, words: str
+) -> None:
+    """Any exception that no code expects: here one that opening the lock of the run throws."""
+    command = ["run", small_case, "--output", tmp_path / "run"]
+    environment = faults.environment_of_fault(tmp_path / "run", 2, "once", reason) | {"TMPDIR": str(tmp_path)}
+    message = thawslide.error(*command, code=1, environment=environment)
+    (log,) = tmp_path.glob("thawslide-error-*.log")
+    assert message == f"error: internal error, please report it with {log}: {words}\n"
+    version, called, cause = log.read_text().splitlines()
+    assert version.startswith("thawslide ") and called.endswith(" ".join(map(str, command))) and cause == words
+
+
 @pytest.mark.parametrize("size", [1_000, 9_000, 20_000])
 def test_a_limit_of_file_sizes_loses_nothing(binary: Path, small_case: Path, tmp_path: Path, size: int) -> None:
     subject = Subject("small", small_case)

@@ -5,7 +5,8 @@
 //   FAULT_AT      the call that fails; 0 or absent: none
 //   FAULT_KIND    once (that call alone, the default), onwards (all from there on), short (half of what is written
 //                 arrives, later ones fail)
-//   FAULT_REASON  full (no space left, the default), io (input/output error), denied (permission denied)
+//   FAULT_REASON  full (no space left, the default), io (input/output error), denied (permission denied), or an
+//                 exception: std (a std::exception) or other
 //   FAULT_LOCKS   absent: there are no locks, as on some network disks, whatever the folder
 //   FAULT_COUNT   file, outside of the folder, that the number of calls is written to at the end
 #include <dlfcn.h>
@@ -23,6 +24,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -34,6 +36,7 @@ struct Plan {
   long at = 0;
   Kind kind = Kind::once;
   int reason = ENOSPC;
+  std::string exception;
   std::atomic<long> calls{0};
 
   Plan() {
@@ -46,6 +49,7 @@ struct Plan {
     at = std::atol(text("FAULT_AT").c_str());
     const std::string kind_word = text("FAULT_KIND"), reason_word = text("FAULT_REASON");
     kind = kind_word == "onwards" ? Kind::onwards : kind_word == "short" ? Kind::short_write : Kind::once;
+    exception = reason_word == "std" || reason_word == "other" ? reason_word : "";
     reason = reason_word == "io" ? EIO : reason_word == "denied" ? EACCES : ENOSPC;
   }
   ~Plan() {
@@ -99,6 +103,12 @@ Function* real(const char* name) {
 
 template <class Result>
 Result failed(Result value) {
+  if (plan().exception == "std") {
+    throw std::runtime_error("a call of the system failed\033[31m");
+  }
+  if (plan().exception == "other") {
+    throw plan().reason;
+  }
   errno = plan().reason;
   return value;
 }
