@@ -15,6 +15,7 @@
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
 #include "gis/unreadable_files.hpp"
+#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 
@@ -35,6 +36,12 @@ namespace {
   }
   if (const std::string cause = cause_of_unreadable_raster(file); !cause.empty()) {
     throw UserError(fmt::format("{}: {}", file, cause));
+  }
+  if (GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, vector_formats(), nullptr) != nullptr) {
+    throw UserError(
+        fmt::format("{}: the file has polygons, lines or points; needed: a raster, as a GeoTIFF or an ESRI ASCII grid. "
+                    "Is it swapped with another file? Correct the path.",
+                    file));
   }
   throw UserError(
       fmt::format("{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is "

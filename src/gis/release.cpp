@@ -40,8 +40,6 @@ Raster cropped(const Raster& thickness, const Raster& ground) {
   return part_of(thickness, window);
 }
 
-constexpr double thickest = 500.0;  // m: a raster with larger values contains elevations
-
 void check_volume(const config::Case& parameters, const std::string& name, const Raster& thickness) {
   const double volume = volume_of(thickness);
   const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
@@ -58,7 +56,7 @@ void check_volume(const config::Case& parameters, const std::string& name, const
                         area_file(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
                         rounded_text(largest, 3),
                         parameters.bodies.at(name).release.empty() && most > thickest
-                            ? "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness."
+                            ? swapped_dem
                             : "Is the thickness in the wrong unit? Metres are needed.",
                         name));
   }

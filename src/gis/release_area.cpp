@@ -36,8 +36,9 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
   return layout;
 }
 
-// `extent`: of all positive thickness before tapering.
-void check_area(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
+// `extent`: of all positive thickness before tapering. `is_dem`: the thickness seems to be elevations.
+void check_area(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground,
+                bool is_dem = false) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
     const std::string beyond = describe_overhang(extent, outer);
     if (!beyond.empty()) {
@@ -51,7 +52,7 @@ void check_area(const config::Case& parameters, const std::string& body, const R
         fmt::format("Check that both have the same location and reference system (the DEM has {}), or use a larger "
                     "DEM.",
                     name_of(ground.raster.crs)));
-  check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
+  check("the domain", domain_of(parameters), is_dem ? swapped_dem : "Widen grid.min and grid.max.");
 }
 
 // Widest taper whose points lie within `outer`, around an extent that does.
@@ -192,7 +193,9 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
   area.source = thickness_without_polygons(parameters, name, ground, warnings);
   const Rectangle extent =
       with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
-  check_area(parameters, name, extent, ground);
+  const auto& values = area.source.values;
+  check_area(parameters, name, extent, ground,
+             std::any_of(values.begin(), values.end(), [](double value) { return value > thickest; }));
   check_taper(parameters, name, extent, ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
   area.fraction = with_error_location(parameters, key, [&] {

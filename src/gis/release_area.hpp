@@ -19,6 +19,11 @@ struct ReleaseArea {
   [[nodiscard]] bool is_raster() const { return !source.empty(); }
 };
 
+// [m]; a raster with larger values contains elevations.
+inline constexpr double thickest = 500.0;
+inline constexpr const char* swapped_dem =
+    "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness.";
+
 // Name of a body's key in messages: "body.NAME.release".
 [[nodiscard]] std::string key_of(const std::string& body, const std::string& name);
 

@@ -75,12 +75,13 @@ GDALDatasetUniquePtr open_vector(const std::string& file, const std::string& rea
       throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
     }
     if (is_raster_file(file)) {
-      throw UserError(fmt::format("{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage, GeoJSON or KML.{}",
-                                  file, name_of_kind(kind),
-                                  kind == Kind::polygons
-                                      ? " A raster of a body's thickness goes to thickness = { raster "
-                                        "= \"FILE\" }, which needs no polygons."
-                                      : ""));
+      throw UserError(
+          fmt::format("{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage, GeoJSON or KML. Is "
+                      "it swapped with another file? Correct the path.{}",
+                      file, name_of_kind(kind),
+                      kind == Kind::polygons ? " A raster of a body's thickness goes to thickness = { raster "
+                                               "= \"FILE\" }, which needs no polygons."
+                                             : ""));
     }
     if (const std::string cause = cause_of_unreadable_vector(file); !cause.empty()) {
       throw UserError(fmt::format("{}: {}", file, cause));

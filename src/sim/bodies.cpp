@@ -269,7 +269,7 @@ void require_within_domain(const config::Case& parameters, const std::string& na
       if ((has_bottom && position < grid.min[a]) || position > grid.max[a]) {
         throw UserError(
             fmt::format("{}: body '{}' has a particle at x = {} m, y = {} m, elevation {} m, outside the domain, whose "
-                        "{} is from {} to {} m. Widen grid.min and grid.max.",
+                        "{} is from {} to {} m. Widen grid.min and grid.max, or correct terrain.file.",
                         config::location_of(parameters, "body." + name), name, coordinate_text(seeds[p].position[0]),
                         coordinate_text(seeds[p].position[1]), coordinate_text(seeds[p].position[Dim - 1]), axes[a],
                         coordinate_text(grid.min[a]), coordinate_text(grid.max[a])));

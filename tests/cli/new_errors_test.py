@@ -276,3 +276,22 @@ def test_a_domain_smaller_than_its_dem_is_to_be_widened(thawslide: Program, slop
     widen = LEFT_DOMAIN + r"The DEM ends (\d+) m ahead of it: widen \[grid\] that way\.\n"
     reported = failed(thawslide, slope, [0.0] * 3, widen, basal__friction_angle=5, grid__max=grid["max"])
     assert float(reported[4]) < float(reported[5]) == pytest.approx(end - float(reported[1]), abs=5.0)
+
+
+def test_swapped_files_of_a_case_are_named(thawslide: Program, slope: Slope) -> None:
+    polygons, thick = slope.release(), raster(slope, THICKNESS)
+    slope.ok()
+    slope.ok(folder=slope.folder / "thick", release=thick, thickness=None)
+    dem, of_raster = slope.folder / "dem.tif", slope.folder / "thick"
+    other_kind = "release.geojson: the file has polygons, lines or points; needed: a raster"
+    elevations = "Is this raster a DEM, swapped with the raster of the thickness?"
+    as_raster = f'{{ raster = "{dem}" }}'
+    for case, keys, words in (
+        (slope.case, {"terrain__file": polygons, "body__slide__release": dem}, other_kind),
+        (of_raster, {"body__slide__thickness": f'{{ raster = "{polygons}" }}'}, other_kind),
+        (of_raster, {"terrain__file": thick, "body__slide__thickness": as_raster}, elevations),
+        (slope.case, {"terrain__file": thick}, "or correct terrain.file"),
+        (slope.case, {"maps__path": thick}, "the file is a raster; needed: lines"),
+    ):
+        for command in (["check", case], ["run", case, "--output", slope.folder / "run"]):
+            assert words in thawslide.error(*command, *sets(**keys)), keys

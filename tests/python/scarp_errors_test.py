@@ -82,6 +82,8 @@ dem.tif {WITHIN} outline.kml --tolerance 1 -> outline.kml: the layer is empty; n
 dem.tif {WITHIN} absent.gpkg --tolerance 1 -> absent.gpkg: there is no such file.
 absent.tif {PLANE} -> absent.tif: there is no such file. Correct the path.
 text.tif {PLANE} -> text.tif: the raster cannot be opened
+in.geojson {PLANE} -> in.geojson: the file has polygons, lines or points; needed: a raster
+dem.tif {WITHIN} hole.tif --tolerance 1 -> hole.tif: the file is a raster; needed: polygons
 kelvin.tif {PLANE} -> kelvin.tif: the unit of the values is 'K'; allowed: a unit of length
 degrees.tif {PLANE} -> degrees.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric
 nowhere.tif {PLANE} --crs EPSG:0 -> --crs: 'EPSG:0' is not a known coordinate reference system;
