@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/composition.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 
@@ -31,6 +32,22 @@ std::string likely_unit(const Rule& rule, double found) {
     return fmt::format("; if it is in percent, it is {:g}", found / whole_in_percent);
   }
   return "";
+}
+
+// A file that exists, or one in its folder whose name differs only in the composition of its letters.
+std::filesystem::path in_any_composition(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error)) {
+    return file;
+  }
+  const std::string name = composed(file.filename().string());
+  for (std::filesystem::directory_iterator entry(file.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (composed(entry->path().filename().string()) == name) {
+      return entry->path();
+    }
+  }
+  return file;
 }
 
 // Suggestion for a missing file, such as "; did you mean 'profile.csv'?": one in its folder with the same ending. Empty
@@ -201,7 +218,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
   }
   std::error_code error;
   const fs::path base = from_command_line ? override->folder : reading.folder;
-  const fs::path whole = (base / path).lexically_normal();
+  const fs::path whole = in_any_composition((base / path).lexically_normal());
   if (!from_command_line) {
     if (fs::path(path).is_absolute() || !lies_within(whole, base)) {
       return fail(node,

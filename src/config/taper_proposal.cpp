@@ -48,10 +48,10 @@ std::vector<int> steps_to(const std::vector<char>& marked, const Window& window)
   return steps;
 }
 
-class Release {
+class ReleaseOnDem {
  public:
   // margin: number of DEM points, known or not, around those of the thickness.
-  Release(const Raster& dem, const Raster& thickness, int margin)
+  ReleaseOnDem(const Raster& dem, const Raster& thickness, int margin)
       : dem_(dem),
         thickness_(thickness),
         margin_(margin),
@@ -109,7 +109,7 @@ class Release {
 };
 
 // Maximum thickness at points next to the edge; the outline may cut the cells of the edge points themselves.
-double edge_thickness(const Release& release, const std::vector<int>& steps_inside) {
+double edge_thickness(const ReleaseOnDem& release, const std::vector<int>& steps_inside) {
   double largest = 0.0;
   release.for_each_point([&](int column, int row) {
     if (steps_inside[release.window().index(column, row)] <= 2) {
@@ -120,7 +120,7 @@ double edge_thickness(const Release& release, const std::vector<int>& steps_insi
 }
 
 // Slope of the mean plane of the terrain.
-double slope_below(const Release& release, const Raster& dem) {
+double slope_below(const ReleaseOnDem& release, const Raster& dem) {
   double x = 0.0, y = 0.0, points = 0.0;
   release.for_each_point([&](int column, int row) {
     const double dx = release.ground(column + 1, row) - release.ground(column - 1, row);
@@ -139,7 +139,7 @@ double slope_below(const Release& release, const Raster& dem) {
 EdgeTaper propose_taper(const Raster& dem, const Raster& thickness) {
   const double cell = std::min(dem.cell_x, dem.cell_y);
   const double thickest = *std::max_element(thickness.values.begin(), thickness.values.end());
-  const Release release(dem, thickness, 2 + static_cast<int>(std::ceil(0.5 * most_widths * thickest / cell)));
+  const ReleaseOnDem release(dem, thickness, 2 + static_cast<int>(std::ceil(0.5 * most_widths * thickest / cell)));
   const Window& window = release.window();
 
   const std::vector<int> inside = steps_to(release.marked(false), window);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/composition.hpp"
 #include "base/error.hpp"
 #include "config/declaration.hpp"
 #include "config/input_limits.hpp"
@@ -72,7 +73,7 @@ std::string likely_slip(std::string_view description) {
 toml::table parse(const std::string& text, const std::string& file) {
   require_shallow(text, file);
   try {
-    toml::table root = toml::parse(text, std::string_view(file));
+    toml::table root = toml::parse(composed(text), std::string_view(file));
     if (root.empty()) {
       throw UserError(fmt::format(
           "{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].", file));

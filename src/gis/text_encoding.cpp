@@ -4,6 +4,8 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include "base/composition.hpp"
+
 namespace thawslide::gis {
 
 bool has_unknown_encoding(GDALDataset& dataset) {
@@ -20,7 +22,7 @@ bool has_unknown_encoding(GDALDataset& dataset) {
 
 std::string as_utf8(const std::string& text) {
   if (CPLIsUTF8(text.c_str(), -1) != 0) {
-    return text;
+    return composed(text);
   }
   char* const recoded = CPLRecode(text.c_str(), "CP1252", CPL_ENC_UTF8);
   std::string result = recoded;

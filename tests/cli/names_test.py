@@ -3,6 +3,7 @@
 import os
 import shlex
 import tomllib
+import unicodedata
 from pathlib import Path
 
 import pytest
@@ -71,3 +72,21 @@ def test_a_name_of_maximum_length_is_checked_and_run(thawslide: Program, small_c
     for command in ("check", "run"):
         thawslide.ok(command, small_case, *words, folder=small_case)
     assert (small_case / "runs" / "small" / "inputs" / profile.name).read_text() == PROFILE
+
+
+@pytest.mark.parametrize(("written", "stored"), [("NFC", "NFD"), ("NFD", "NFC")])
+def test_names_are_equal_in_any_composition(
+    thawslide: Program, tmp_path: Path, slope: Slope, written: str, stored: str
+) -> None:
+    """Systems and programs write a letter with a mark as one character or as two."""
+    slope.ok(folder=tmp_path / "slide")
+    name, other = (unicodedata.normalize(form, "Südhang Gürtelé") for form in (written, stored))
+    assert name != other
+    release = write_rectangle(tmp_path / f"{other}.geojson", WEST + 200.0, SOUTH + 250.0, **{other: 24.0})
+    release.write_text(release.read_text().replace('"slide"', f'"{other}"'), encoding="utf-8")
+    keys = sets(
+        body__slide__release=tmp_path / f"{name}.geojson", body__slide__thickness=f'{{ attribute = "{name}" }}',
+        body__slide__polygons=f'["{name}"]',
+    )  # fmt: skip
+    checked = thawslide.json("check", tmp_path / "slide", *keys)
+    assert checked["bodies"][0]["volume_m3"] == pytest.approx(288_000.0, rel=1e-6)
