@@ -14,25 +14,19 @@ from pathlib import Path
 
 from thawslide.errors import ReportError, nearest, quoted
 from thawslide.text_files import MEGABYTE, finite_number, read_table
+from thawslide.units import (
+    ANGLES,
+    AREAS,
+    FORCES,
+    LENGTHS,
+    PRESSURES,
+    RATIOS,
+    SPEEDS,
+    TEMPERATURES,
+    VOLUMES,
+    Units,
+)
 
-Units = Mapping[str, tuple[float, float]]  # by the unit's name: (factor, offset) of first unit = factor * x + offset
-
-_LENGTH: Units = {"m": (1.0, 0.0), "km": (1e3, 0.0), "cm": (1e-2, 0.0)}
-_SPEED: Units = {"m/s": (1.0, 0.0), "km/h": (1.0 / 3.6, 0.0)}
-_TEMPERATURE: Units = {"C": (1.0, 0.0), "degC": (1.0, 0.0), "°C": (1.0, 0.0), "K": (1.0, -273.15)}
-_FORCE: Units = {"N": (1.0, 0.0), "kN": (1e3, 0.0), "MN": (1e6, 0.0), "GN": (1e9, 0.0), "TN": (1e12, 0.0)}
-_PRESSURE: Units = {"Pa": (1.0, 0.0), "kPa": (1e3, 0.0), "MPa": (1e6, 0.0), "GPa": (1e9, 0.0)}
-_AREA: Units = {"m2": (1.0, 0.0), "m²": (1.0, 0.0), "ha": (1e4, 0.0), "km2": (1e6, 0.0), "km²": (1e6, 0.0)}
-_VOLUME: Units = {
-    "m3": (1.0, 0.0),
-    "m³": (1.0, 0.0),
-    "million m3": (1e6, 0.0),
-    "million m³": (1e6, 0.0),
-    "km3": (1e9, 0.0),
-    "km³": (1e9, 0.0),
-}
-_ANGLE: Units = {"degrees": (1.0, 0.0), "deg": (1.0, 0.0), "°": (1.0, 0.0), "rad": (math.degrees(1.0), 0.0)}
-_RATIO: Units = {"-": (1.0, 0.0), "1": (1.0, 0.0), "": (1.0, 0.0), "%": (1e-2, 0.0)}
 _TIMES = {"time_s": 1.0, "time_min": 60.0, "time_h": 3600.0}  # name of the column: seconds
 
 # Kind of a value: its adjective in figures, and the heading of such values. It is "" without a column.
@@ -66,29 +60,29 @@ class Quantity:
 
 
 QUANTITIES: Mapping[str, Quantity] = {
-    REFERENCE: Quantity("mean velocity that sets the times", _SPEED),
-    "mean_velocity": Quantity("mean velocity", _SPEED, column="mean_velocity_m_s"),
-    "mean_displacement": Quantity("mean displacement", _LENGTH, column="mean_displacement_m"),
-    "front_distance": Quantity("runout distance", _LENGTH, column="runout_m"),
-    "band_SL": Quantity("liquid saturation of the band", _RATIO, high=1.0, column="band_saturation"),
-    "band_saturation": Quantity("liquid saturation of the band", _RATIO, high=1.0, column="band_saturation"),
-    "band_temperature": Quantity("mean band temperature", _TEMPERATURE, low=ABSOLUTE_ZERO, column="band_temperature_C"),
+    REFERENCE: Quantity("mean velocity that sets the times", SPEEDS),
+    "mean_velocity": Quantity("mean velocity", SPEEDS, column="mean_velocity_m_s"),
+    "mean_displacement": Quantity("mean displacement", LENGTHS, column="mean_displacement_m"),
+    "front_distance": Quantity("runout distance", LENGTHS, column="runout_m"),
+    "band_SL": Quantity("liquid saturation of the band", RATIOS, high=1.0, column="band_saturation"),
+    "band_saturation": Quantity("liquid saturation of the band", RATIOS, high=1.0, column="band_saturation"),
+    "band_temperature": Quantity("mean band temperature", TEMPERATURES, low=ABSOLUTE_ZERO, column="band_temperature_C"),
     "band_pore_pressure": Quantity(
-        "mean band pore pressure", _PRESSURE, low=float("-inf"), column="band_pore_pressure_Pa"
+        "mean band pore pressure", PRESSURES, low=float("-inf"), column="band_pore_pressure_Pa"
     ),
     "band_friction_coefficient": Quantity(
-        "friction coefficient of the band", _RATIO, column="band_friction_coefficient"
+        "friction coefficient of the band", RATIOS, column="band_friction_coefficient"
     ),
-    FORCE: Quantity("maximum seismic force", _FORCE),
-    SOURCE_VOLUME: Quantity("source volume", _VOLUME),
+    FORCE: Quantity("maximum seismic force", FORCES),
+    SOURCE_VOLUME: Quantity("source volume", VOLUMES),
     "source_mean_thickness": Quantity(
-        "mean source thickness", _LENGTH, is_compared=False
+        "mean source thickness", LENGTHS, is_compared=False
     ),  # reports rarely state the area
-    "deposit_volume": Quantity("deposit volume", _VOLUME, fact="covered_volume_m3"),
-    "deposit_area": Quantity("deposit area", _AREA, fact="covered_area_m2"),
-    "travel_distance": Quantity("travel distance", _LENGTH, fact="travel_distance_m"),
-    "drop_height": Quantity("drop height", _LENGTH, low=float("-inf"), fact="drop_height_m"),
-    "angle_of_reach": Quantity("reach angle", _ANGLE, low=-90.0, high=90.0, fact="reach_angle_degrees"),
+    "deposit_volume": Quantity("deposit volume", VOLUMES, fact="covered_volume_m3"),
+    "deposit_area": Quantity("deposit area", AREAS, fact="covered_area_m2"),
+    "travel_distance": Quantity("travel distance", LENGTHS, fact="travel_distance_m"),
+    "drop_height": Quantity("drop height", LENGTHS, low=float("-inf"), fact="drop_height_m"),
+    "angle_of_reach": Quantity("reach angle", ANGLES, low=-90.0, high=90.0, fact="reach_angle_degrees"),
 }
 _IN_BAND = re.compile(FORCE + r"_(\d+(?:\.\d+)?)_(\d+(?:\.\d+)?)_s", re.ASCII)
 _PERIODS = (1e-3, 1e5)  # s, allowed range
