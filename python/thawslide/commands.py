@@ -34,6 +34,11 @@ def probability() -> int:
     return run_command("thawslide probability", "thawslide.sweeps.probability_command")
 
 
+def score() -> int:
+    """Run `thawslide score`."""
+    return run_command("thawslide score", "thawslide.scores.command")
+
+
 def run_command(name: str, module: str) -> int:
     """Import a module and run its function `main`; return the exit code, 1 for an internal error."""
     try:

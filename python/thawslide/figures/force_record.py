@@ -67,9 +67,9 @@ def _times(start: float, end: float, band: Band) -> Numbers:
     return even_times(start, end, band.shortest / SAMPLES, band.shortest, band.longest)
 
 
-def compared(run: Run) -> Comparison:
-    """Return the curves of the figure; NotInRunError if the run has no record or no width."""
-    record = run.force_record
+def compared(run: Run, other: ForceRecord | None = None) -> Comparison:
+    """Return the curves of the figure, of the record of the run or another; NotInRunError without record or width."""
+    record = other or run.force_record
     if record is None:
         raise NotInRunError("case.toml: no force record. Specify report.force_record.")
     if run.per_metre:

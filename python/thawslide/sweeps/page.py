@@ -16,6 +16,7 @@ from thawslide.atomic_file import atomic_file
 from thawslide.errors import NotInRunError, ReportError, quoted
 from thawslide.number_text import exact_text, number_text
 from thawslide.pages.markup import details, drawn_data, figure_part, page_frame, table
+from thawslide.scores.output import stored_section
 from thawslide.sweeps.design import FACTORIAL, Design
 from thawslide.sweeps.figures import scatter, spread, tornado
 from thawslide.sweeps.folder import DONE, FAILED, SweepFolder
@@ -58,6 +59,7 @@ def write_page(
         parts += _figure(f"Sensitivity of {name_and_unit(result)[0]}", caption, _tornado(design, members, result))
     if shown and keys:
         parts += _figure("Inputs and results", "Each point is one member.", lambda: scatter(done, keys, shown))
+    parts.append(stored_section(folder.path))
     if maps:
         terrain = maps[0].with_name("terrain.tif")
         parts += _figure("Probability maps", _maps_caption(maps), lambda: probability_maps(maps, terrain, len(done)))

@@ -136,8 +136,8 @@ def _outputs(
     return found
 
 
-def arrival_thickness(files: Sequence[Path]) -> str:
-    """Return the thickness from which runs count as arrived, with its unit; the key if unknown or different."""
+def arrival_threshold(files: Sequence[Path]) -> float | None:
+    """Return the thickness [m] from which the runs of map files count as arrived, None if unknown or different."""
     found = set()
     for path in files:
         try:
@@ -146,7 +146,13 @@ def arrival_thickness(files: Sequence[Path]) -> str:
             maps = {}
         found.add(maps.get("arrival_thickness") if isinstance(maps, dict) else None)
     number = found.pop() if len(found) == 1 else None
-    return f"{number:g} m" if is_number(number) else "maps.arrival_thickness"
+    return float(number) if number is not None and is_number(number) else None
+
+
+def arrival_thickness(files: Sequence[Path]) -> str:
+    """Return the thickness from which runs count as arrived, with its unit; the key if unknown or different."""
+    number = arrival_threshold(files)
+    return "maps.arrival_thickness" if number is None else f"{number:g} m"
 
 
 def _above(threshold: float) -> Callable[[Numbers], Numbers]:

@@ -1,0 +1,1 @@
+"""Comparison of a sweep or a run with observations of an event."""
