@@ -10,11 +10,13 @@ import scoringrules
 from maps_test import plane  # noqa: F401
 from probability_test import CELL, write
 
+from thawslide.figures.force_record import Comparison, Curves
 from thawslide.number_text import area_text, number_text
 from thawslide.pages.events import published_events
 from thawslide.scores.baseline import baseline_values, similar_events
 from thawslide.scores.command import main
 from thawslide.scores.ensemble import percentile
+from thawslide.scores.force import correlation
 from thawslide.scores.output import BEGIN, END, stored_section
 from thawslide.sweeps.command import main as sweep
 
@@ -254,6 +256,21 @@ def test_a_single_run_has_differences(plane: Path, tmp_path: Path, capfd: pytest
     assert row["difference"] == pytest.approx(speed - 9.0) and row["members_crps"] == pytest.approx(abs(speed - 9.0))
     out = capfd.readouterr().out
     assert "| quantity   | observed  | run " in out and "percentile" not in out.split("events")[0]
+
+
+def test_the_correlation_is_that_of_both_components_at_the_times_of_the_record() -> None:
+    random = np.random.default_rng(4)
+    at, times = np.arange(20.0, 40.0), np.arange(0.0, 60.0)
+    record = Curves(at, random.normal(size=20), random.normal(size=20), None)
+    parts = [np.interp(times, at, part, 0.0, 0.0) for part in (record.up, record.along)]
+
+    def found(up: np.ndarray, along: np.ndarray) -> float:
+        return correlation(Comparison(Curves(times, up, along, None), record, {}, 0.0, 0.0, True))
+
+    assert found(*parts) == pytest.approx(1.0) and found(-3.0 * parts[0], -3.0 * parts[1]) == pytest.approx(-1.0)
+    up, along = np.vdot(record.up, record.up), np.vdot(record.along, record.along)
+    assert found(parts[0], 0.0 * parts[1]) == pytest.approx(np.sqrt(up / (up + along)))
+    assert np.isnan(found(0.0 * parts[0], 0.0 * parts[1]))
 
 
 def test_a_damaged_score_does_not_prevent_the_page(tmp_path: Path) -> None:
