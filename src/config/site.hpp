@@ -61,7 +61,8 @@ using NamedFigures = std::vector<std::pair<std::string, double>>;
 [[nodiscard]] NamedFigures named(const Roughness& ground);
 
 struct Site {
-  std::shared_ptr<const Raster> ground;  // sliding surface, after excavation of releases; null: no raster
+  std::shared_ptr<const Raster> ground;            // sliding surface, after excavation of releases; null: no raster
+  std::shared_ptr<const Raster> before_smoothing;  // at the same points, without excavation; null: not smoothed
   // Outermost points of the DEM from which the ground was cropped [m]; empty: it was not cropped.
   std::optional<std::array<std::array<double, 2>, 2>> terrain_model;  // south-west, north-east
   std::optional<Roughness> roughness;                                 // of the DEM

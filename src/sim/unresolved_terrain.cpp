@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "sim/steep_terrain.hpp"
 
 namespace thawslide::sim {
 
@@ -94,7 +96,8 @@ class CrestSearch {
         cell_(simulation.parameters().grid.cell),
         landform_(landform),
         least_(least),
-        columns_(columns_of(cell_)) {
+        columns_(columns_of(cell_)),
+        simulation_is_filtered_(simulation.site().before_smoothing != nullptr) {
     for (const auto& [east, north] : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}, std::array{1, -1}}) {
       const double distance = std::hypot(east * terrain.cell_x, north * terrain.cell_y);
       const int narrow = static_cast<int>(landform.half_columns * cell_ / distance);
@@ -102,8 +105,12 @@ class CrestSearch {
         directions_.push_back({east, north, distance, narrow});
       }
     }
-    for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-      top_ = std::max(top_, simulation.particles().position(p, Dim - 1) + model_.origin[Dim - 1]);
+    top_ = top_of_bodies(simulation);
+    const config::Case& parameters = simulation.parameters();
+    for (const auto& [name, release] : simulation.site().releases) {
+      if (parameters.bodies.at(name).placement == config::Placement::cut) {
+        scars_.push_back(&release.thickness);
+      }
     }
   }
 
@@ -124,18 +131,18 @@ class CrestSearch {
                              [](const Crest& a, const Crest& b) { return a.loss() < b.loss(); });
   }
 
-  // Cell that keeps a crest, at least the distance of a DEM's points.
-  [[nodiscard]] double cell_for(const Crest& crest) const {
+  // Cell that keeps a crest, at least the distance of a DEM's points; nothing if the filter of the DEM removes it.
+  [[nodiscard]] std::optional<double> cell_for(const Crest& crest) const {
     constexpr double refinement = 0.8;
     const double least = terrain_.rows > 1 ? finest() : terrain_.cell_x;
     double cell = cell_;
     while (cell > least) {
       cell = std::max(least, refinement * cell);
       if (on_grid(crest, columns_of(cell)) >= kept_along * crest.height) {
-        break;
+        return cell;
       }
     }
-    return cell;
+    return simulation_is_filtered_ ? std::nullopt : std::optional(cell);
   }
 
  private:
@@ -206,10 +213,28 @@ class CrestSearch {
     if (crest.height == 0.0 || crest.height < across_hollow * highest(column, row)) {
       return {};
     }
+    if (is_at_scar(column, row, crest.across)) {
+      return {};
+    }
     crest.on_grid = on_grid(crest, columns_);
     return crest.on_grid < kept * crest.height ? crest : Crest{};
   }
 
+  // True if a release was cut out of the terrain across a point.
+  [[nodiscard]] bool is_at_scar(int column, int row, const Direction& across) const {
+    for (int k = -2 * across.narrow; k <= 2 * across.narrow; ++k) {
+      const double x = terrain_.x_of(column + k * across.east), y = terrain_.y_of(row + k * across.north);
+      for (const Raster* thickness : scars_) {
+        const double c = std::round((x - thickness->x) / thickness->cell_x),
+                     r = std::round((y - thickness->y) / thickness->cell_y);
+        if (c >= 0.0 && r >= 0.0 && c < thickness->columns && r < thickness->rows &&
+            thickness->at(static_cast<int>(c), static_cast<int>(r)) > 0.0) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
   [[nodiscard]] double height_at(int column, int row) const { return landform_.sign * terrain_.at(column, row); }
   [[nodiscard]] Line line_of(int column, int row, const Direction& across) const {
     return Line(2 * across.narrow, [&](int k) { return height_at(column + k * across.east, row + k * across.north); });
@@ -235,7 +260,9 @@ class CrestSearch {
   double least_;  // height [m]
   Ground columns_;
   std::vector<Direction> directions_;
-  double top_ = -HUGE_VAL;  // of the bodies [m]
+  double top_;  // of the bodies [m]
+  bool simulation_is_filtered_;
+  std::vector<const Raster*> scars_;  // thicknesses of releases that were cut out
 };
 
 // Terrain of a profile between the sides of the domain, as a raster of one row.
@@ -256,13 +283,6 @@ Raster raster_of_profile(const Simulation<Dim>& simulation) {
   return raster;
 }
 
-// Text such as "x = 120 m, y = 350 m".
-template <int Dim>
-std::string place_text(double x, double y) {
-  const std::string text = fmt::format("x = {} m", coordinate_text(x));
-  return Dim == 2 ? text : text + fmt::format(", y = {} m", coordinate_text(y));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -273,29 +293,28 @@ std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<Dim>& s
   if (!model.ground) {
     return {};
   }
-  std::vector<std::string> warnings;
-  if (const auto& lowering = model.ground->lowering(); lowering.columns > 0) {
-    warnings.push_back(fmt::format(
-        "grid.steepest: the terrain is steeper than {:g} degrees. Columns of nodes lowered: {}, by up to {} m at {}. "
-        "Increase grid.steepest (allowed: up to 85 degrees) to keep the terrain, with shorter steps, or filter it.",
-        grid.steepest, count_text(static_cast<double>(lowering.columns)), rounded_text(lowering.largest, 2),
-        place_text<Dim>(lowering.place[0] + model.origin[0], lowering.place[Dim - 2] + model.origin[Dim - 2])));
-  }
   double thickness = 0.0;
   for (const BodyFigures& body : bodies) {
     thickness = std::max(thickness, body.median_thickness);
   }
   const Raster profile = model.profile ? raster_of_profile(simulation) : Raster{};
-  const Raster& terrain = model.profile ? profile : *simulation.site().ground;
+  const config::Site& site = simulation.site();
+  const Raster& terrain = model.profile ? profile : site.before_smoothing ? *site.before_smoothing : *site.ground;
+  std::vector<std::string> warnings = warnings_of_steep_terrain(simulation, bodies, terrain);
   for (const Landform& landform : {Landform{1.0, 1.0, "dyke", "high"}, Landform{-1.0, 2.0, "gully", "deep"}}) {
     const CrestSearch<Dim> search(simulation, terrain, landform, relevant * thickness);
     const Crest crest = search.worst();
     if (crest.height > 0.0) {
+      const std::optional<double> cell = search.cell_for(crest);
+      const std::string remedy =
+          cell ? fmt::format("Use cells of at most {:g} m to keep it.", rounded_down(*cell, 2))
+               : fmt::format("The filter of the DEM, {:g} m, removes it: a smaller terrain.smooth keeps it.",
+                             site.roughness->width);
       warnings.push_back(fmt::format(
           "grid.cell: at {} the terrain has a {} too narrow for cells of {:g} m: it is {} m {}, and {} m in the "
-          "columns of nodes. Use cells of at most {:g} m to keep it.",
+          "columns of nodes. {}",
           place_text<Dim>(crest.place[0], crest.place[1]), landform.name, grid.cell, rounded_text(crest.height, 2),
-          landform.extent, rounded_text(crest.on_grid, 2), rounded_down(search.cell_for(crest), 2)));
+          landform.extent, rounded_text(crest.on_grid, 2), remedy));
     }
   }
   return warnings;

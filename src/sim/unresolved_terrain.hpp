@@ -9,8 +9,9 @@
 
 namespace thawslide::sim {
 
-// Warnings about columns that were lowered, and about the narrow dyke and the narrow gully that lose most of their
-// height. These are crests and thalwegs of the terrain within the domain that
+// Warnings of sim/steep_terrain.hpp, and about the narrow dyke and the narrow gully that lose most of their height.
+// These are crests and thalwegs of the terrain before its filter, within the domain and outside the scars of releases,
+// that
 // - are lower than the top of the bodies, which may therefore reach them,
 // - rise above (fall below) the terrain on both sides within two cells (four for gullies) by more than a quarter of the
 //   median thickness of the thickest body, and reach two thirds of this height within half the distance,

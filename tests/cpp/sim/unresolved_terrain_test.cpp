@@ -14,19 +14,26 @@ namespace {
 
 using namespace testing_support;
 
-// Release of 20 m at x = -75 to -5 m.
-Simulation<3> slide_on(const Height& height, double cell) {
+// Release of 20 m at x = -75 to -5 m. measured: the DEM before its filter, if any.
+Simulation<3> slide_on(const Height& height, double cell, const Sets& sets = {}, const Height& measured = {}) {
   const Place half(200.0, 100.0);
   const auto slide = release_on_dem({20.0, 0.01, cell, {-200.0, -100.0, -300.0}, {200.0, 100.0, 300.0}}, {}, 20.0);
   const Raster thickness = thickness_between(
       -half, half, 5.0, [](double x, double y) { return std::hypot(x + 40.0, y) < 35.0 ? 20.0 : 0.0; });
-  return Simulation<3>(case_on_dem(slide, "time.stepping=adaptive"),
-                       site_of(raster_between(-1.25 * half, 1.25 * half, 1.25, height), thickness));
+  const auto raster_of = [&](const Height& heights) {
+    return raster_between(-1.25 * half, 1.25 * half, 1.25, heights);
+  };
+  config::Site site = site_of(raster_of(height), thickness);
+  if (measured) {
+    site.before_smoothing = std::make_shared<const Raster>(raster_of(measured));
+    site.roughness.emplace().width = 8.0;
+  }
+  return Simulation<3>(case_on_dem(slide, "time.stepping=adaptive" + sets), std::move(site));
 }
 
 // Warnings, one per line.
-std::string warnings_on(const Height& height, double cell) {
-  const Simulation<3> simulation = slide_on(height, cell);
+std::string warnings_on(const Height& height, double cell, const Sets& sets = {}, const Height& measured = {}) {
+  const Simulation<3> simulation = slide_on(height, cell, sets, measured);
   return fmt::format("{}", fmt::join(warnings_of_unresolved_terrain(simulation, body_figures(simulation)), "\n"));
 }
 
@@ -78,6 +85,31 @@ TEST(UnresolvedTerrain, NamesAGullyNarrowerThanFourColumns) {
   expect_in(warnings, " m in the columns of nodes. Use cells of at most 4 m to keep it.");
   EXPECT_EQ(warnings_on(ridge(-12.0, 16.0, 90.0, 0.0), 4.0), "");
   EXPECT_EQ(warnings_on(ridge(-12.0, 50.0, 90.0, 0.0), 10.0), "");
+}
+
+TEST(UnresolvedTerrain, NamesADykeThatTheFilterOfTheDemRemoves) {
+  const std::string warnings = warnings_on(ridge(0.5, 40.0), 10.0, {}, ridge(9.0, 10.0));
+  expect_in(warnings, "the terrain has a dyke too narrow for cells of 10 m: it is 8.");
+  expect_in(warnings, "The filter of the DEM, 8 m, removes it: a smaller terrain.smooth keeps it.");
+}
+
+// Height of a slope that ends at a cliff 150 m high.
+Height cliff_at(double edge) {
+  return [=](double x, double /*y*/) { return x < edge ? -0.2 * x : -0.2 * x - 150.0; };
+}
+
+TEST(SteepTerrain, NamesGroundOnWhichStepsAreShort) {
+  const std::string warnings = warnings_on(cliff_at(100.0), 10.0, "; grid.steepest=85");
+  expect_in(warnings, "note: grid.steepest: the ground of the cells is as steep as 8");
+  expect_in(warnings, "adaptive steps become 1");  // 1/cos(85 degrees) over 1/cos(atan 0.2): 11
+  EXPECT_EQ(warnings.find("body.slide"), std::string::npos) << "the cliff is far from the body";
+}
+
+TEST(SteepTerrain, NamesBodiesWhoseGroundIsLowered) {
+  const std::string warnings = warnings_on(cliff_at(0.0), 10.0);
+  expect_in(warnings, "body.slide: the ground of the cells is up to ");
+  expect_in(warnings, " m below the terrain under it, and the body starts there.");
+  expect_in(warnings, "grid.steepest: the terrain is steeper than 65 degrees.");
 }
 
 TEST(UnresolvedTerrain, NamesADykeOfAProfile) {
