@@ -1,20 +1,31 @@
-// Bodies that share nodes, and interaction between bodies that do not (mpm/body_contact.hpp).
+// Bodies that share nodes, and interaction between bodies that do not (mpm/body_contact.hpp). Layers of the grid are
+// numbered from 0: first those of bodies that move, then one for the held bodies of each of these.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/portability.hpp"
 
 namespace thawslide::mpm {
 
-struct BetweenBodies {
-  std::vector<std::uint8_t> layer_of_body;  // by body number; empty: all share nodes
-  std::size_t layers = 1;
-  std::vector<Real> friction;  // coefficient, by layer * layers + other layer
+// Friction coefficient of a contact that sticks while it is closed.
+inline constexpr Real rough = std::numeric_limits<Real>::max();
 
-  [[nodiscard]] bool any() const { return layers > 1; }
+struct BetweenBodies {
+  std::vector<std::uint8_t> layer_of_body;  // while it moves, by body number; empty: all share nodes
+  std::size_t layers = 1;                   // of moving bodies
+  bool has_held = false;                    // some bodies are held for a time
+  std::vector<Real> friction;               // coefficient, by layer * layers + other layer
+
+  [[nodiscard]] bool any() const { return all_layers() > 1; }
+  [[nodiscard]] std::size_t all_layers() const { return has_held ? 2 * layers : layers; }
+  [[nodiscard]] bool is_held(std::size_t layer) const { return layer >= layers; }
+  [[nodiscard]] Real friction_between(std::size_t layer, std::size_t other) const {
+    return friction[layer % layers * layers + other % layers];
+  }
 };
 
 }  // namespace thawslide::mpm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
@@ -189,33 +188,6 @@ Real gap_between(const std::vector<Edge<Dim>>& first, const std::vector<Edge<Dim
 
 }  // namespace
 
-template <int Dim>
-void BodyContact<Dim>::find_pairs(const SparseGrid<Dim>& grid, const BetweenBodies& between) {
-  pairs_.clear();
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    const std::uint64_t key = grid.blocks()[b];
-    for (std::uint64_t layer = T::layer(key) + 1; layer < between.layers; ++layer) {
-      const std::int32_t other = grid.block_at(T::in_layer(T::without_layer(key), layer));
-      if (other != KeyIndex::absent) {
-        const Real friction =
-            between
-                .friction[static_cast<std::size_t>(T::layer(key)) * between.layers + static_cast<std::size_t>(layer)];
-        pairs_.push_back({T::without_layer(key), b, static_cast<std::size_t>(other), friction, {}});
-      }
-    }
-  }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.tile, a.block, a.other) < std::tie(b.tile, b.block, b.other);
-  });
-  first_of_tile_.clear();
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (k == 0 || pairs_[k].tile != pairs_[k - 1].tile) {
-      first_of_tile_.push_back(k);
-    }
-  }
-  first_of_tile_.push_back(pairs_.size());
-}
-
 // Finds the nodes at which both bodies have mass; returns false if there are none.
 template <int Dim>
 bool BodyContact<Dim>::find_meetings(const Nodes<Dim>& nodes, Pair& pair) {
@@ -314,12 +286,14 @@ void BodyContact<Dim>::exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, P
     }
     auto& first = nodes.momentum(pair.block, k);
     auto& second = nodes.momentum(pair.other, k);
-    const Vec approach = trial_velocity(first) - trial_velocity(second);
+    const Vec approach = trial_velocity(first) - (pair.other_is_held ? Vec(Vec::Zero()) : trial_velocity(second));
     const Real closing = approach.dot(meeting.normal);
     const Vec slip = approach - closing * meeting.normal;
     const Real slip_speed = slip.norm();
-    const auto impulse = physics::body_impulse(first[Layout::mass], second[Layout::mass], closing, slip_speed,
-                                               meeting.gap, dt, pair.friction);
+    const auto impulse = pair.other_is_held ? physics::impulse_on_fixed_body(first[Layout::mass], closing, slip_speed,
+                                                                             meeting.gap, dt, pair.friction)
+                                            : physics::body_impulse(first[Layout::mass], second[Layout::mass], closing,
+                                                                    slip_speed, meeting.gap, dt, pair.friction);
     meeting.in_contact = impulse.normal > Real(0);
     if (!meeting.in_contact) {
       continue;
@@ -368,8 +342,10 @@ BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>&
         const Real mass = nodes.momentum(pair.block, k)[Layout::mass],
                    other_mass = nodes.momentum(pair.other, k)[Layout::mass];
         const Vec approach = vector_at<Dim>(mapped, 0) - vector_at<Dim>(other_mapped, 0);
-        const auto impulse = physics::body_impulse(mass, other_mass, Real(approach.dot(meeting.normal)), Real(0),
-                                                   meeting.gap, dt, Real(0));
+        const Real closing = approach.dot(meeting.normal);
+        const auto impulse = pair.other_is_held
+                                 ? physics::impulse_on_fixed_body(mass, closing, Real(0), meeting.gap, dt, Real(0))
+                                 : physics::body_impulse(mass, other_mass, closing, Real(0), meeting.gap, dt, Real(0));
         const auto turn = [&](std::size_t block, auto& velocity, Real sign, Real of_mass) {
           const auto& record = nodes.momentum(block, k);
           const Vec before = vector_at<Dim>(velocity, 0);
@@ -382,7 +358,9 @@ BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>&
           work.numerical -= transferred.dot(Vec(middle - before - change)) + internal.dot(change);
         };
         turn(pair.block, mapped, Real(-1), mass);
-        turn(pair.other, other_mapped, Real(1), other_mass);
+        if (!pair.other_is_held) {
+          turn(pair.other, other_mapped, Real(1), other_mass);
+        }
       }
     }
   });

@@ -1,5 +1,6 @@
 // Contact between bodies that do not share nodes. Each body has separate blocks (a layer of the grid). At nodes where
-// two bodies have mass, they exchange momentum if they approach and the gap between their particles is closed.
+// two bodies have mass, they exchange momentum if they approach and the gap between their particles is closed. A held
+// body is a fixed wall for the others.
 #pragma once
 
 #include <array>
@@ -54,6 +55,7 @@ class BodyContact {
   struct Pair {
     std::uint64_t tile;
     std::size_t block, other;
+    bool other_is_held;
     Real friction;
     std::array<Meeting, block_nodes> at;
   };

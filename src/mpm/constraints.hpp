@@ -1,7 +1,10 @@
-// Prescribed motion at nodes: boundaries of the domain (fixed, roller, open) and moving rigid frames (Sec. 3.2).
+// Prescribed motion at nodes: boundaries of the domain (fixed, roller, open), moving rigid frames (Sec. 3.2), and held
+// bodies.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mpm/domain_faces.hpp"
@@ -26,6 +29,7 @@ struct RigidFrame {
 template <int Dim>
 struct Constraints : DomainFaces<Dim> {
   std::vector<RigidFrame<Dim>> frames;
+  std::uint64_t first_held_layer = std::numeric_limits<std::uint64_t>::max();  // of the grid, and those after it
 
   // Sets the prescribed components of a node's momentum; true if a frame has set one.
   bool apply(const Vector<Real, Dim>& position, Real mass, Real time, Vector<Real, Dim>& momentum) const {
@@ -67,12 +71,20 @@ class BlockConstraints {
         constraints_(&constraints),
         block_(block),
         time_(time),
-        any_(constraints.may_apply(node_position(grid, block, 0),
+        is_held_(Tile<Dim>::layer(grid.blocks()[block]) >= constraints.first_held_layer),
+        any_(is_held_ ||
+             constraints.may_apply(node_position(grid, block, 0),
                                    node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1), time)) {}
 
   [[nodiscard]] bool any() const { return any_; }
+  // True for the nodes of held bodies, which are fixed.
+  [[nodiscard]] bool is_held() const { return is_held_; }
   // Applies Constraints::apply at a node of the block.
   bool apply(std::size_t node, Real mass, Vector<Real, Dim>& momentum) const {
+    if (is_held_) {
+      momentum.setZero();
+      return false;
+    }
     return any_ && constraints_->apply(node_position(*grid_, block_, node), mass, time_, momentum);
   }
 
@@ -81,7 +93,7 @@ class BlockConstraints {
   const Constraints<Dim>* constraints_;
   std::size_t block_;
   Real time_;
-  bool any_;
+  bool is_held_, any_;
 };
 
 // Constraints at one node of a block.

@@ -40,6 +40,9 @@ class SparseGrid {
   // at the first call only.
   void update(Particles<Dim>& particles, int interval);
 
+  // Moves bodies to other layers, from the next update on.
+  void set_layers(std::vector<std::uint8_t> layer_of_body);
+
   // Follows Particles::remove. now_at: its result.
   void remove(const Particles<Dim>& particles, const std::vector<std::uint32_t>& now_at);
 

@@ -1,8 +1,19 @@
-// Particles added and removed between two steps.
+// Particles added, removed or moved to another layer between two steps.
+#include <algorithm>
+#include <utility>
+
 #include "base/instances.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
+
+template <int Dim>
+void SparseGrid<Dim>::set_layers(std::vector<std::uint8_t> layer_of_body) {
+  if (layer_of_body != layer_of_body_) {
+    layer_of_body_ = std::move(layer_of_body);
+    std::fill(nearest_.begin(), nearest_.end(), never);  // all keys are computed again
+  }
+}
 
 // New particles have no nearest node yet.
 template <int Dim>
@@ -73,8 +84,9 @@ void SparseGrid<Dim>::drop_from_tiles(const std::vector<std::uint32_t>& now_at) 
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                    \
-  template void SparseGrid<Dim>::add_appended(const Particles<Dim>&); \
+#define THAWSLIDE_INSTANTIATE(Dim)                                      \
+  template void SparseGrid<Dim>::set_layers(std::vector<std::uint8_t>); \
+  template void SparseGrid<Dim>::add_appended(const Particles<Dim>&);   \
   template void SparseGrid<Dim>::remove(const Particles<Dim>&, const std::vector<std::uint32_t>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

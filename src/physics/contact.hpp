@@ -69,13 +69,18 @@ inline THAWSLIDE_HD Real closing_speed_beyond_gap(Real closing_speed, Real gap, 
   return max(Real(0), closing_speed - max(Real(0), gap) / dt);
 }
 
-// N = m (closing speed beyond the gap), T = min(m |slip speed|, mu N), m = m_1 m_2 / (m_1 + m_2): the bodies leave the
-// node with one velocity across the contact, and stick or slide along it by Coulomb's law.
+// N = m (closing speed beyond the gap), T = min(m |slip speed|, mu N), with the mass m of a body that meets a fixed
+// one: it leaves the node without a velocity across the contact, and sticks or slides along it by Coulomb's law.
+inline THAWSLIDE_HD BodyImpulse impulse_on_fixed_body(Real mass, Real closing_speed, Real slip_speed, Real gap, Real dt,
+                                                      Real friction) {
+  const Real normal = mass * closing_speed_beyond_gap(closing_speed, gap, dt);
+  return {normal, min(mass * slip_speed, friction * normal)};
+}
+
+// The same with m = m_1 m_2 / (m_1 + m_2): the bodies leave the node with one velocity across the contact.
 inline THAWSLIDE_HD BodyImpulse body_impulse(Real mass, Real other_mass, Real closing_speed, Real slip_speed, Real gap,
                                              Real dt, Real friction) {
-  const Real reduced_mass = mass * other_mass / (mass + other_mass);
-  const Real normal = reduced_mass * closing_speed_beyond_gap(closing_speed, gap, dt);
-  return {normal, min(reduced_mass * slip_speed, friction * normal)};
+  return impulse_on_fixed_body(mass * other_mass / (mass + other_mass), closing_speed, slip_speed, gap, dt, friction);
 }
 
 }  // namespace thawslide::physics

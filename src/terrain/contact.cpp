@@ -193,6 +193,13 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
   return given;
 }
 
+// Counts the force on a node of a held body as one of the ground, which holds it.
+template <int Dim>
+void hold_by_ground(const NodeState<Dim>& state, Real dt, ContactWork<Dim>& work) {
+  work.constraint_impulse -= state.constraint_impulse;
+  work.force -= state.constraint_impulse / dt;
+}
+
 template <int Dim>
 void apply_contact_conditions(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                               mpm::Nodes<Dim>& nodes) {
@@ -300,6 +307,9 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
     }
     const auto finish = [&](const NodeState<Dim>& state, std::size_t k) {
       finish_node<Dim>(state, on_block.any(), model.mass_damping, dt, work, nodes.motion(b, k));
+      if (on_block.is_held()) {
+        hold_by_ground(state, dt, work);
+      }
     };
     BlockContact<Dim> contact;
     find_contact(grid, ground, known, model, on_block, b, time, dt, nodes, contact, finish);

@@ -195,5 +195,18 @@ TEST(BodyContact, IsTheSameForEitherBody) {
   EXPECT_EQ(one.tangential, other.tangential);
 }
 
+// A fixed body is one of infinite mass.
+TEST(BodyContact, StopsABodyAtAFixedOne) {
+  for (const double friction : {0.0, 0.3, 1e300}) {
+    const auto fixed = impulse_on_fixed_body(mass, 2.0, 1.5, 0.003, dt, friction);
+    const auto heavy = body_impulse(mass, 1e18, 2.0, 1.5, 0.003, dt, friction);
+    EXPECT_DOUBLE_EQ(fixed.normal, heavy.normal);
+    EXPECT_DOUBLE_EQ(fixed.tangential, heavy.tangential);
+  }
+  EXPECT_EQ(impulse_on_fixed_body(mass, 2.0, 1.5, 0.0, dt, 1e300).normal, 2.0 * mass);
+  EXPECT_EQ(impulse_on_fixed_body(mass, 2.0, 1.5, 0.0, dt, 1e300).tangential, 1.5 * mass) << "it sticks";
+  EXPECT_EQ(impulse_on_fixed_body(mass, -2.0, 1.5, 0.0, dt, 1e300).tangential, 0.0);
+}
+
 }  // namespace
 }  // namespace thawslide::physics
