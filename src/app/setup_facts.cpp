@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,20 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
       rounded_text(body.spacing, 3), body.particles_across, body.max_particles_across,
       body.coldest == body.warmest ? fmt::format("{:.3g} C", body.coldest)
                                    : fmt::format("{:.3g} to {:.3g} C", body.coldest, body.warmest));
+}
+
+// Bodies in the order of their release; empty if all are released at the start.
+std::string stages_text(std::vector<sim::BodyFigures> bodies) {
+  std::stable_sort(bodies.begin(), bodies.end(),
+                   [](const auto& a, const auto& b) { return a.release_time < b.release_time; });
+  if (bodies.empty() || !(bodies.back().release_time > 0.0)) {
+    return "";
+  }
+  std::string text;
+  for (const sim::BodyFigures& body : bodies) {
+    text += fmt::format("{}{} at {:g} s", text.empty() ? "" : ", ", body.name, body.release_time);
+  }
+  return fmt::format("  stages      release of {}; held until then\n", text);
 }
 
 std::string text_of(const SubstrateFacts& substrate, int dimension) {
@@ -102,6 +117,7 @@ Json json_of(const sim::BodyFigures& body) {
           {"spacing_m", body.spacing},
           {"particles_across", body.particles_across},
           {"max_particles_across", body.max_particles_across},
+          {"release_time_s", body.release_time},
           {"coldest_C", body.coldest},
           {"warmest_C", body.warmest},
           {"clearance_m", std::isfinite(body.clearance) ? Json(body.clearance) : Json()},
@@ -186,6 +202,7 @@ std::string text_of(const SetupFacts& facts) {
   for (const sim::BodyFigures& body : facts.bodies) {
     text += text_of(body, facts);
   }
+  text += stages_text(facts.bodies);
   for (const SubstrateFacts& substrate : facts.substrates) {
     text += text_of(substrate, facts.dimension);
   }

@@ -154,6 +154,12 @@ struct MapValue {
   std::string source;  // name of the attribute, or path of the raster (absolute once read)
 };
 
+// Time at which a body is released: a number [s], or an attribute of its release polygons.
+struct ReleaseTime {
+  double number = 0.0;
+  std::string attribute;  // empty: the number
+};
+
 struct Body {
   std::string material;
   BodyShape shape = BodyShape::box;
@@ -169,6 +175,7 @@ struct Body {
   std::vector<std::string> polygons;  // names of the polygons that form the body; empty: all
   std::string name_attribute = "name";
   MapValue thickness;
+  ReleaseTime release_time;  // held until then
   ThicknessAlong thickness_along = ThicknessAlong::vertical;
   Placement placement = Placement::on_top;
   double taper = 0.0;               // m, width over which the thickness falls to 0 at the edge
@@ -364,6 +371,11 @@ struct Case {
 // Whether the ground is a profile or a DEM.
 inline bool has_terrain(const Case& parameters) {
   return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
+}
+inline bool has_stages(const Case& parameters) {
+  return std::any_of(parameters.bodies.begin(), parameters.bodies.end(), [](const auto& body) {
+    return body.second.release_time.number > 0.0 || !body.second.release_time.attribute.empty();
+  });
 }
 inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
 inline bool guards_remove(const Case& parameters) {

@@ -248,10 +248,38 @@ void check_surface(const Case& checked, const ProfileTable& profile, const std::
   check_in_domain(checked, low, high, table, table + ".shape", table + ".shape", reading);
 }
 
+void check_release_time(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
+  const std::string key = table + ".release_time";
+  if (!reading.are_valid({key, "time.end"})) {
+    return;
+  }
+  const ReleaseTime& release = body.release_time;
+  if (!release.attribute.empty() && (body.shape != BodyShape::release || body.release.empty())) {
+    reading.report(key,
+                   fmt::format("{} is the attribute \"{}\", and the body has no release polygons. Give the time in "
+                               "seconds, or the polygons as {}.release.",
+                               key, release.attribute, table));
+    return;
+  }
+  if (release.number >= checked.time.end) {
+    reading.report_misfit({key, "time.end"},
+                          fmt::format("{} is {} s, and time.end is {} s: the body would be held for the whole run. Set "
+                                      "an earlier time, or a later time.end.",
+                                      key, release.number, checked.time.end));
+  }
+  const bool is_staged = release.number > 0.0 || !release.attribute.empty();
+  if (is_staged && reading.are_valid({table + ".velocity"}) && body.velocity != Point{}) {
+    reading.report_misfit({table + ".velocity", key},
+                          fmt::format("{}.velocity is {}, and {} holds the body at rest until its release. Remove one.",
+                                      table, point_text(body.velocity, checked.general.dimension), key));
+  }
+}
+
 void check_body(const Case& checked, const ProfileTable& profile, const std::string& name, const Body& body,
                 Reading& reading) {
   const std::string table = "body." + name;
   check_material(checked, table, body.material, reading);
+  check_release_time(checked, body, table, reading);
   if (!reading.are_valid({table + ".shape", "grid.cell"})) {
     return;
   }

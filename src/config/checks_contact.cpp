@@ -10,7 +10,8 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr std::size_t most_layers = 15;  // limit of mpm::Tile
+constexpr std::size_t most_layers = 15;           // limit of mpm::Tile
+constexpr std::size_t most_layers_in_stages = 7;  // held bodies have separate layers
 
 // Checks that each pair names two existing bodies, and that no two pairs name the same bodies.
 bool check_names(const Case& checked, Reading& reading) {
@@ -71,13 +72,15 @@ void check_contact(const Case& checked, Reading& reading) {
   }
   const std::string key =
       checked.contact.between_bodies == BodyContact::frictional ? "contact.between_bodies" : "contact_pair";
-  if (layers.count > most_layers) {
+  const bool is_staged = has_stages(checked);
+  const std::size_t most = is_staged ? most_layers_in_stages : most_layers;
+  if (layers.count > most) {
     reading.report_misfit(
         {key},
-        fmt::format("{}: too many bodies, or groups of bonded ones, in frictional contact (found {}; allowed {}). "
+        fmt::format("{}: too many bodies, or groups of bonded ones, in frictional contact (found {}; allowed {}{}). "
                     "Bond those that move as one by [contact_pair.NAME] with contact = "
                     "\"bonded\".",
-                    key, layers.count, most_layers));
+                    key, layers.count, most, is_staged ? " with a body.NAME.release_time" : ""));
   }
   if (layers.count > 1 && reading.are_valid({"band.model"}) && has_band_columns(checked)) {
     reading.report_misfit({key, "band.model"},

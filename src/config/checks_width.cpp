@@ -36,6 +36,7 @@ void check_width(const Case& checked, Reading& reading) {
   } others[] = {
       {reading.are_valid({"bed.law"}) && checked.bed.law != BedLaw::none, "an erodible bed ([bed])"},
       {!checked.frames.empty(), "a rigid frame ([frame.NAME])"},
+      {has_stages(checked), "a release in stages (body.NAME.release_time)"},
       {bodies_are_apart(checked, reading), "frictional contact between bodies ([contact])"},
   };
   for (const auto& other : others) {

@@ -48,6 +48,8 @@ std::vector<double> numbers_in(const T& value) {
     return value.table.value;
   } else if constexpr (std::is_same_v<T, MapValue>) {
     return value.from == MapValue::From::number ? std::vector<double>{value.number} : std::vector<double>{};
+  } else if constexpr (std::is_same_v<T, ReleaseTime>) {
+    return value.attribute.empty() ? std::vector<double>{value.number} : std::vector<double>{};
   } else if constexpr (std::is_same_v<T, InitialField>) {
     return value.table.value;
   } else if constexpr (std::is_same_v<T, Point> || std::is_same_v<T, std::vector<double>>) {

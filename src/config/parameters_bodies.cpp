@@ -124,6 +124,12 @@ std::vector<Parameter<Body>> start_parameters() {
            .source = "Lei et al., Eq. 1"})
           .otherwise("from porosity and saturation"),
       parameter(&Body::velocity, {.key = "velocity", .unit = "m/s", .text = "velocity at t = 0"}),
+      parameter(&Body::release_time,
+                {.key = "release_time",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "time until which the body is held in place, as a wall without tension for other bodies; an "
+                         "attribute has one value for all polygons of the body"}),
   };
 }
 

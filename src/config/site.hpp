@@ -19,8 +19,9 @@ namespace thawslide::config {
 using Polyline2 = std::vector<std::array<double, 2>>;  // x, y [m] of the corners
 
 struct Release {
-  Raster thickness;   // vertical [m] at the points of the ground's raster, cropped to the release; 0 outside
-  double area = 0.0;  // horizontal, of the outlines [m2]
+  Raster thickness;           // vertical [m] at the points of the ground's raster, cropped to the release; 0 outside
+  double area = 0.0;          // horizontal, of the outlines [m2]
+  double release_time = 0.0;  // [s], if an attribute of the polygons specifies it
   std::vector<Polyline2> outlines;       // closed rings, for figures; empty if a raster specifies the release
   std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... if given by a map
   // Only for a body that touches another one, otherwise empty. A point belongs to the body whose outline contains it,

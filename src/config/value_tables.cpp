@@ -274,6 +274,26 @@ json Value<MapValue>::schema(const Rule& rule) {
   return {{"anyOf", any_of}};
 }
 
+// release time
+std::string Value<ReleaseTime>::type(const Rule& rule) {
+  return fmt::format("a number or {{ attribute = \"NAME\" }}{}", range_and_unit(rule));
+}
+bool Value<ReleaseTime>::read(const toml::node& node, const ValueReader& at, ReleaseTime& value) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) {
+    value = ReleaseTime{};
+    return at.number_in_range(node, value.number);
+  }
+  const std::string key = only_key(*table, {"attribute"});
+  return key.empty() ? fail_keys(node, at) : read_source(*table, key, at, value.attribute);
+}
+std::string Value<ReleaseTime>::write(const ReleaseTime& value, const Rule&, const WriteContext& context) {
+  return value.attribute.empty() ? number_text(value.number) : write_source("attribute", value.attribute, context);
+}
+json Value<ReleaseTime>::schema(const Rule& rule) {
+  return {{"anyOf", json::array({Value<double>::schema(rule), source_schema("attribute")})}};
+}
+
 // heat boundary
 std::string Value<HeatBoundary>::type(const Rule&) {
   return "\"insulated\", { temperature = T } with T > -273.15 [C] or { flux = q } with q into the body [W/m2]";

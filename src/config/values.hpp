@@ -59,6 +59,7 @@ THAWSLIDE_DECLARE_VALUE(WidthOverX)     // number | { x = [...], value = [...] }
 // number | { depth = [...], value = [...] } | { x = [...], value = [...] } | { attribute = "..." } | { raster = "..." }
 THAWSLIDE_DECLARE_VALUE(InitialField)
 THAWSLIDE_DECLARE_VALUE(MapValue)      // number | { attribute = "..." } | { raster = "..." } | { surface = "..." }
+THAWSLIDE_DECLARE_VALUE(ReleaseTime)   // number | { attribute = "..." }
 THAWSLIDE_DECLARE_VALUE(HeatBoundary)  // "insulated" | { temperature = T } | { flux = q }
 
 #undef THAWSLIDE_DECLARE_VALUE

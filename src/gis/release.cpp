@@ -12,6 +12,7 @@
 #include "gis/release_fields.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/taper.hpp"
+#include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
 
@@ -75,6 +76,30 @@ void warn_of_thick_release(const std::string& name, const config::Release& relea
   }
 }
 
+// Time of a body from an attribute of its polygons [s]; 0 without one.
+double release_time_of(const config::Case& parameters, const std::string& name, const ReleaseArea& area) {
+  const std::string& attribute = parameters.bodies.at(name).release_time.attribute;
+  if (attribute.empty()) {
+    return 0.0;
+  }
+  const std::string key = key_of(name, "release_time");
+  const std::vector<ValuedArea> parts =
+      with_error_location(parameters, key, [&] { return areas_by_value(area.layer, attribute, key); });
+  const double first = parts.front().value, last = parts.back().value;
+  if (parts.size() > 1) {
+    fail_at(parameters, key,
+            fmt::format("{}: the attribute '{}' of the polygons of body.{} is from {:g} to {:g}; allowed: one value. "
+                        "Make a body of each stage, and select its polygons by body.NAME.polygons.",
+                        area_file(parameters, name), attribute, name, first, last));
+  }
+  if (!(first >= 0.0 && first < parameters.time.end)) {
+    fail_at(parameters, key,
+            fmt::format("{}: the attribute '{}' is {:g} s; allowed: from 0 to less than time.end, {:g} s. Correct it.",
+                        area_file(parameters, name), attribute, first, parameters.time.end));
+  }
+  return first;
+}
+
 }  // namespace
 
 LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
@@ -84,6 +109,7 @@ LoadedRelease load_release(const config::Case& parameters, const std::string& bo
   check_volume(parameters, body, thickness);
   LoadedRelease loaded;
   config::Release& release = loaded.release;
+  release.release_time = release_time_of(parameters, body, area);
   release.thickness = cropped(thickness, ground.raster);
   release.fields = fields_of(parameters, body, area, release.thickness, warnings);
   for (const Polygon& polygon : area.polygons) {

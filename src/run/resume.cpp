@@ -151,7 +151,7 @@ bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next
   if (simulation.ends_at_rest()) {
     if (changes.empty() || is_end_alone) {
       observer.line("{} has {} {:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0", folder.string(),
-                    simulation.moved_mass().all ? "not moved until" : "come to rest at", simulation.time());
+                    simulation.moved_mass().has_moved ? "come to rest at" : "not moved until", simulation.time());
       return false;
     }
     simulation.restart_rest_time();

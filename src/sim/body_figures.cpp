@@ -55,6 +55,8 @@ class Bodies {
   [[nodiscard]] BodyFigures figures(std::size_t number) const {
     BodyFigures figures;
     figures.name = simulation_.model().body_names[number];
+    const std::vector<double>& release_times = simulation_.model().release_times;
+    figures.release_time = release_times.empty() ? 0.0 : release_times[number];
     figures.spacing = spacing_[number];
     sum_particles(number, figures);
     const double section = sum_in_section(number);

@@ -20,6 +20,7 @@ struct BodyFigures {
   double mean_thickness = 0.0, median_thickness = 0.0, largest_thickness = 0.0;  // [m]
   double particles_across = 0.0, max_particles_across = 0.0;  // across the median and the maximum thickness
   double spacing = 0.0;                                       // of the particles [m]
+  double release_time = 0.0;                                  // [s]
   double coldest = 0.0, warmest = 0.0;                        // minimum and maximum temperature [C]
   // Minimum clearance of all columns above the ground or another body [m], infinite if nothing is below; fraction of
   // the area that rests on it, to within one spacing.

@@ -27,7 +27,7 @@ EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
   const BodySums<Dim> sums = simulation.sum_over_body();
   state.is_known = parameters.mechanics.enabled;
   state.at_rest = state.is_known && simulation.is_at_rest();
-  state.has_moved = !simulation.moved_mass().all;
+  state.has_moved = simulation.moved_mass().has_moved;
   state.rest_since = state.at_rest ? simulation.rest_since() : unknown;
   state.mean_velocity = sums.momentum.norm() / static_cast<double>(sums.mass);
   state.dilation_volume = width * sums.volume_change;

@@ -18,9 +18,17 @@ MovedMass Simulation<Dim>::moved_mass() const {
   }
   if (static_cast<double>(sums.moved_mass) > mpm::fraction_ahead_of_front * of_moved_bodies &&
       sums.moved_mass > Real(0)) {
-    return {false, of_moved_bodies, sums.moved_bodies};
+    return {false, of_moved_bodies, sums.moved_bodies, true};
   }
-  return {true, all, {}};
+  MovedMass released{false, all, {}};
+  for (std::size_t body = 0; body < bodies_at_start_.size(); ++body) {
+    if (is_held(body)) {
+      released.mass -= bodies_at_start_[body].mass;
+    } else {
+      released.bodies.add(body);
+    }
+  }
+  return released.mass < all && released.mass > round_off * all ? released : MovedMass{true, all, {}};
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #include "sim/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -8,6 +9,7 @@
 #include "config/body_layers.hpp"
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
+#include "sim/release_times.hpp"
 #include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"
@@ -18,18 +20,22 @@ namespace {
 
 double radians(double degrees) { return degrees * pi / 180.0; }
 
-mpm::BetweenBodies between_bodies(const config::Case& parameters) {
+// bodies: number of bodies, with that of the entrained bed material.
+mpm::BetweenBodies between_bodies(const config::Case& parameters, std::size_t bodies, bool has_held) {
   mpm::BetweenBodies between;
   const config::BodyLayers layers = config::body_layers(parameters);
-  if (layers.count == 1) {
+  if (layers.count == 1 && !has_held) {
     return between;
   }
   between.layers = layers.count;
-  for (const std::size_t layer : layers.of_body) {
-    between.layer_of_body.push_back(static_cast<std::uint8_t>(layer));
-  }
+  between.has_held = has_held;
+  between.layer_of_body.assign(bodies, 0);
+  std::copy(layers.of_body.begin(), layers.of_body.end(), between.layer_of_body.begin());
   for (const double angle : layers.friction_angle) {
     between.friction.push_back(static_cast<Real>(std::tan(radians(angle))));
+  }
+  for (std::size_t layer = 0; layer < layers.count; ++layer) {
+    between.friction[layer * (layers.count + 1)] = mpm::rough;  // bonded bodies, while one of them is held
   }
   return between;
 }
@@ -367,7 +373,11 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * parameters.bed.particles_per_axis));
   }
   model.constraints = make_constraints<Dim>(parameters, model.origin);
-  model.between_bodies = between_bodies(parameters);
+  model.release_times = release_times(parameters, site, model.body_names.size());
+  model.between_bodies = between_bodies(parameters, model.body_names.size(), !model.release_times.empty());
+  if (model.between_bodies.has_held) {
+    model.constraints.first_held_layer = model.between_bodies.layers;
+  }
   model.contact.law = make_basal_law(parameters);
   model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;

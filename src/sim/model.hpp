@@ -32,6 +32,7 @@ struct Model {
   std::vector<Real> free_gaps;                          // by material: 1: gaps are stress-free, 0: they carry stress
   Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0 if there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is the entrained bed material
+  std::vector<double> release_times;                    // by body [s]; empty: all bodies move from the start
 };
 
 template <int Dim>

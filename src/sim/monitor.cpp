@@ -87,6 +87,16 @@ bool has_moved_further(const mpm::Particles<Dim>& particles, Real distance) {
   return far_mass > static_cast<Real>(moving_fraction_at_rest) * mass;
 }
 
+// Time of the last scheduled change of the case, or of the last release [s].
+template <int Dim>
+double last_event(const config::Case& parameters, const Model<Dim>& model) {
+  double last = config::last_scheduled_event(parameters);
+  for (const double time : model.release_times) {
+    last = std::max(last, time);
+  }
+  return last;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -175,7 +185,7 @@ bool Simulation<Dim>::is_at_rest() const {
   const double needed = monitor_.rest_since > 0.0
                             ? times.rest_time
                             : rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
-  const double from = std::max(monitor_.rest_since, config::last_scheduled_event(parameters_));
+  const double from = std::max(monitor_.rest_since, last_event(parameters_, model_));
   return monitor_.rest_since >= 0.0 && step_number_ >= watch_interval && time_ - from >= needed * (1.0 - 1e-9);
 }
 
@@ -190,7 +200,7 @@ std::string Simulation<Dim>::rest_rule() const {
   const double from_start = rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
   const std::string or_from_start =
       from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
-  const double event = config::last_scheduled_event(parameters_);
+  const double event = last_event(parameters_, model_);
   const std::string after_event = event > 0.0 ? fmt::format(" after the last scheduled change at {:g} s", event) : "";
   return fmt::format("for {:g} s{}{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
                      or_from_start, after_event, 100.0 * moving_fraction_at_rest, rest_speed(times));
@@ -215,7 +225,7 @@ std::string Simulation<Dim>::energy_warning() const {
 
 template <int Dim>
 std::string Simulation<Dim>::rest_text() const {
-  if (moved_mass().all) {
+  if (!moved_mass().has_moved) {
     return fmt::format("{}: no more than {:g} % of its mass has travelled {:g} m (time.moved_distance)", not_moved,
                        100.0 * mpm::fraction_ahead_of_front, parameters_.time.moved_distance);
   }

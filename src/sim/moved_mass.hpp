@@ -8,12 +8,13 @@
 
 namespace thawslide::sim {
 
-// Bodies of which a part has moved by more than time.moved_distance; all bodies while no more than 0.5 % of their mass
-// has moved that far.
+// Bodies of which a part has moved by more than time.moved_distance; while no more than 0.5 % of their mass has moved
+// that far, all bodies that are not held, or all if all are held.
 struct MovedMass {
-  bool all = true;
+  bool all = true;    // bodies are not restricted to a set
   double mass = 0.0;  // of the bodies [kg]
   mpm::BodySet bodies{};
+  bool has_moved = false;
 
   [[nodiscard]] bool has(std::size_t body) const { return all || bodies.contains(body); }
 };

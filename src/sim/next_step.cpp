@@ -77,7 +77,7 @@ double Simulation<Dim>::next_step(double until) {
   start_on_device();  // so that the step after a restart follows from extremes of the device, as without one
   const double dt = adaptive_step();
   stop_if_step_collapses(dt);
-  const double left = until - time_;
+  const double left = std::min(until, next_release()) - time_;
   const double steps = std::ceil(left / dt * (1.0 - round_off));  // otherwise round-off adds one more step
   return left / std::max(1.0, steps);
 }

@@ -117,7 +117,9 @@ const std::vector<ColumnGroup>& history_columns() {
        {{"momentum_*_N_s", "N s", "total momentum"},
         {"left_momentum_*_N_s", "N s", "momentum of removed particles"},
         {"gravity_impulse_*_N_s", "N s", "impulse of gravity"},
-        {"ground_impulse_*_N_s", "N s", "impulse of the ground, and of the sides of a 2D section whose width varies"},
+        {"ground_impulse_*_N_s", "N s",
+         "impulse of the ground, which also holds bodies before their release, and of the sides of a 2D section whose "
+         "width varies"},
         {"constraint_impulse_*_N_s", "N s", "impulse of the sides of the domain, of rigid frames and of mass damping"},
         {"momentum_residual_*_N_s", "N s", "residual of the momentum budget"}}},
       {"Erodible bed",

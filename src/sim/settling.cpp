@@ -25,6 +25,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   const Model<Dim> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
+  model_.release_times.clear();  // all bodies settle together
   model_.contact.base_is_fixed = true;
   model_.contact.band_columns = false;
   band_columns_.reset();

@@ -114,6 +114,7 @@ void Simulation<Dim>::stop_for_or_remove_particles() {
 template <int Dim>
 void Simulation<Dim>::find_particles_cells() {
   locate_particles();
+  update_layers();
   grid_.update(particles_, sorting_interval_);
   update_ground();
   if (grid_.blocks_changed() && !parameters_.mechanics.enabled) {

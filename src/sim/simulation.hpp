@@ -90,9 +90,12 @@ class Simulation {
   // Appends particles between two steps, with new ids. They are in no band until the next step.
   void append(const std::vector<NewParticle<Dim>>& joining);
 
-  // Next step [s]: the fixed one, or the largest adaptive one, shortened to end at `until`. Throws RunError if the
-  // adaptive step becomes too small (guards.smallest_step, guards.most_steps).
+  // Next step [s]: the fixed one, or the largest adaptive one, shortened to end at `until` and when a body is released.
+  // Throws RunError if the adaptive step becomes too small (guards.smallest_step, guards.most_steps).
   [[nodiscard]] double next_step(double until);
+
+  // True until the release time of a body, given by its number.
+  [[nodiscard]] bool is_held(std::size_t body) const;
 
   // True if the slide is at rest: for time.rest_time, at most moving_fraction_at_rest of the mass has been faster than
   // time.stop_at_rest or, by default, usual_rest_speed (sim/monitor.hpp). Also the criterion as text, and the time
@@ -204,6 +207,10 @@ class Simulation {
   [[nodiscard]] double time_after(double dt);
   void step_on_cpu(const terrain::StrengthLaw* strength);
   void post_step();
+  // Assigns held bodies to separate layers of the grid (release_stages.cpp).
+  void update_layers();
+  // Time of the next release [s]; infinite if no body is held.
+  [[nodiscard]] double next_release() const;
   void find_particles_cells();
   void update_ground() const;
   // Updates the heights of particles above the ground.

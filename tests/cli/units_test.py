@@ -99,7 +99,7 @@ NOT_TESTED = {
     "grid.min",
     "grid.max", "terrain.elevation", "terrain.resample", "terrain.smooth", "checkpoint.interval", "maps.cell",
     "maps.arrival_thickness", "probe.NAME.point", "report.times", "report.force_periods", "freezing.slope",
-    "body.NAME.min",
+    "body.NAME.min", "body.NAME.release_time",
     "body.NAME.max", "body.NAME.vertices", "body.NAME.thickness", "body.NAME.taper", "body.NAME.surface_tolerance",
     "body.NAME.largest_volume", "frame.NAME.min", "frame.NAME.max", "frame.NAME.velocity", "mechanics.fmpm_interval",
     "mechanics.settle_damping", "basal.cohesion_loss_time", "substrate.NAME.x_min", "substrate.NAME.x_max",

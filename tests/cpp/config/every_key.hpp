@@ -103,13 +103,14 @@ inline const std::string release_on_dem = one_key_per_line(R"(
 [body.block] material = "rock" | shape = "release" | release = "inputs/release.shp" |
   polygons = ["upper \"part\"", "lower"] | name_attribute = "part" | thickness = { raster = "inputs/thickness.tif" } |
   thickness_along = "normal" | placement = "cut" | taper = 5.0 | largest_volume = 300000000.0 |
-  saturation = { raster = "inputs/saturation.tif" } | ice_content = { attribute = "ice" }
+  saturation = { raster = "inputs/saturation.tif" } | ice_content = { attribute = "ice" } |
+  release_time = { attribute = "from" }
 [basal] friction_angle = 25.0
 [substrate.ice] outline = "inputs/release.shp" | polygons = ["glacier"] | name_attribute = "kind" |
   friction = "voellmy" | friction_coefficient = 0.125 | turbulent_friction = 250.0
 [heat.boundary] y_min = { temperature = -7.0 } | y_max = { flux = -2.0 }
 [body.upper] material = "rock" | shape = "release" | release = "inputs/release.shp" | polygons = ["upper"] |
-  thickness = 5.0
+  thickness = 5.0 | release_time = 2.5
 [contact] between_bodies = "frictional" | friction_angle = 25.0
 [contact_pair.seam] bodies = ["block", "upper"] | contact = "frictional" | friction_angle = 12.5
 )");

@@ -78,6 +78,18 @@ TEST(ReleaseFaultsTest, Attributes) {
   expect_message(error_of_site(parameters));
 }
 
+TEST(ReleaseFaultsTest, ReleaseTimesOfPolygons) {
+  config::Case parameters = case_with_release({{R"("from":0.25,"name":"lower")", box_at(300, 300, 400, 400)},
+                                               {R"("from":0.5,"name":"upper")", box_at(500, 300, 600, 400)}});
+  parameters.time.end = 2.0;
+  parameters.bodies["rock"].release_time.attribute = "from";
+  expect_message(error_of_site(parameters));
+  parameters.bodies["rock"].polygons = {"upper"};
+  EXPECT_EQ(release_of(parameters).release_time, 0.5);
+  parameters.time.end = 0.5;
+  expect_message(error_of_site(parameters));
+}
+
 TEST(ReleaseFaultsTest, PolygonsOfDifferentThicknessMayNotOverlap) {
   config::Case parameters = case_with_release({{R"("thickness":5,"name":"upper")", box_at(300, 300, 400, 400)},
                                                {R"("thickness":7)", box_at(380, 300, 500, 400)}});
