@@ -27,8 +27,9 @@ struct GroundMap {
 };
 inline constexpr GroundMap terrain_map{"terrain", "m", "elevation of the terrain, resampled and filtered"};
 inline constexpr GroundMap release_map{"release", "m", "vertical thickness of the release"};
-inline constexpr GroundMap ground_map{"ground", "m",
-                                      "elevation of the ground of the cells, on which the material slides"};
+inline constexpr GroundMap ground_map{
+    "ground", "m",
+    "elevation of the ground of the cells, on which the material slides; thicknesses are relative to it"};
 
 // Writes the first two on the points of the DEM, if the terrain is one, and the last on the grid of the other maps, if
 // there is a terrain.
