@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, run_facts
+from conftest import ROOT, columns_of, run_facts
 
 sys.path.append(str(ROOT))
 
@@ -41,3 +41,5 @@ def test_areas_on_coarse_cells_are_those_of_fine_ones(
     assert facts["affected_area_m2"] == pytest.approx(600_000.0, rel=affected)
     assert facts["travel_distance_m"] == pytest.approx(1_335.0, rel=travel)
     assert 0.0 < facts["dilation_fraction"] < growth
+    numerical = columns_of(tmp_path / level.key / "history.csv")["numerical_J"][-1]
+    assert abs(numerical) < 1e10  # of 1.6e13 J of potential energy

@@ -65,10 +65,11 @@ inline double volume_growth(const sim::Simulation<2>& simulation) {
 struct Spread {
   double along, growth;  // standard deviation of the mass along the plane [m], relative growth of the volume
 };
-inline Spread spread_of_block(const Incline& plane, double cell) {
+inline Spread spread_of_block(const Incline& plane, double cell, double viscosity_time = 0.004) {
   sim::Simulation<2> simulation(body_on_plane(
       plane, cell, {plane.place(-100, 0), plane.place(100, 0), plane.place(100, 40), plane.place(-100, 40)},
-      {fmt::format("case.gravity_tilt={}", -plane.degrees), "material.rock.viscosity_time=0.004"}));
+      {fmt::format("case.gravity_tilt={}", -plane.degrees),
+       fmt::format("material.rock.viscosity_time={}", viscosity_time)}));
   run_until(simulation, 16.0);
   return {mass_spread(simulation, plane.down()), volume_growth(simulation)};
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <random>
 
+#include "../support/following_plane.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
@@ -158,6 +159,7 @@ TEST(FollowingTerrain, ABlockFliesOverACliff) {
   const Centre last(simulation);
   record.expect_near("distance of the centre of mass from the parabola after 3 s [m]",
                      (last.position - first.position - passed * first.velocity - fall).norm(), 0.0, 1.0);
+  record.expect_near("growth of the volume", volume_growth(simulation), 0.0, 0.01);
   const double kinetic = value_of(sim::history_row(simulation), "kinetic_J");
   record.expect_near("change of energy over the kinetic energy", (energy() - energy_before) / kinetic, 0.0, 0.01);
 }
