@@ -1,6 +1,7 @@
 // Groups of bodies that move as one, and the friction between the groups, from [contact] and [contact_pair.NAME].
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -8,6 +9,13 @@
 #include "config/case.hpp"
 
 namespace thawslide::config {
+
+// Whether a body is held for a time (body.NAME.release_time).
+[[nodiscard]] inline bool has_stages(const Case& parameters) {
+  return std::any_of(parameters.bodies.begin(), parameters.bodies.end(), [](const auto& body) {
+    return body.second.release_time.number > 0.0 || !body.second.release_time.attribute.empty();
+  });
+}
 
 // Bodies that are bonded, directly or through others, share a layer; layers are numbered by their first body.
 struct BodyLayers {

@@ -372,11 +372,6 @@ struct Case {
 inline bool has_terrain(const Case& parameters) {
   return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
 }
-inline bool has_stages(const Case& parameters) {
-  return std::any_of(parameters.bodies.begin(), parameters.bodies.end(), [](const auto& body) {
-    return body.second.release_time.number > 0.0 || !body.second.release_time.attribute.empty();
-  });
-}
 inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
 inline bool guards_remove(const Case& parameters) {
   return parameters.guards.not_finite == Policy::remove || parameters.guards.volume == Policy::remove;

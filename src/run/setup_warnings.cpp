@@ -4,8 +4,8 @@
 #include "config/reported_values.hpp"
 #include "sim/bodies_apart.hpp"
 #include "sim/body_warnings.hpp"
+#include "sim/domain_bottom.hpp"
 #include "sim/map_grid.hpp"
-#include "sim/model.hpp"
 #include "sim/unresolved_terrain.hpp"
 
 namespace thawslide::run {

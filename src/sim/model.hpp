@@ -47,12 +47,6 @@ mpm::SparseGrid<Dim> make_grid(const config::Case& parameters, const Model<Dim>&
                               mapping_of(model));
 }
 
-// Elevation of the lower side of the domain [m]: that of the case, or a cell below the lowest terrain. On terrain,
-// cells begin at the ground, and a higher corner would only exclude the slide from low ground.
-[[nodiscard]] double bottom_of_domain(const config::Case& parameters, const config::Site& site);
-// States that the elevation of the case has no effect; empty unless it is above the lowest terrain.
-[[nodiscard]] std::string note_of_bottom(const config::Case& parameters, const config::Site& site);
-
 // site: contents of the map files of the case; required if the terrain is a DEM.
 template <int Dim>
 Model<Dim> make_model(const config::Case& parameters, const config::Site& site = {});

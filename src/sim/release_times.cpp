@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "config/body_layers.hpp"
 
 namespace thawslide::sim {
 

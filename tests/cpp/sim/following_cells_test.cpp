@@ -12,6 +12,7 @@
 #include "../support/channel_on_dem.hpp"
 #include "../support/following_plane.hpp"
 #include "../support/reproducible_runs.hpp"
+#include "sim/domain_bottom.hpp"
 #include "sim/map_grid.hpp"
 #include "sim/run_records.hpp"
 
