@@ -63,9 +63,8 @@ void check_in_domain(const Case& checked, const Point& low, const Point& high, c
     return;
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
-    const bool has_bottom = a + 1 < static_cast<std::size_t>(checked.general.dimension) || !has_terrain(checked);
-    const bool is_low = has_bottom && low[a] < grid.min[a];
-    if (is_low || high[a] > grid.max[a]) {
+    if (low[a] < grid.min[a] || high[a] > grid.max[a]) {
+      const bool is_low = low[a] < grid.min[a];
       reading.report_misfit(
           {is_low ? low_key : high_key, is_low ? "grid.min" : "grid.max"},
           fmt::format("{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "

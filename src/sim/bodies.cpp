@@ -265,8 +265,7 @@ void require_within_domain(const config::Case& parameters, const std::string& na
   for (std::size_t p = first; p < seeds.size(); ++p) {
     for (std::size_t a = 0; a < Dim; ++a) {
       const double position = seeds[p].position[static_cast<int>(a)];
-      const bool has_bottom = a + 1 < Dim || !config::has_terrain(parameters);  // otherwise the terrain is the bottom
-      if ((has_bottom && position < grid.min[a]) || position > grid.max[a]) {
+      if (position < grid.min[a] || position > grid.max[a]) {
         throw UserError(
             fmt::format("{}: body '{}' has a particle at x = {} m, y = {} m, elevation {} m, outside the domain, whose "
                         "{} is from {} to {} m. Widen grid.min and grid.max, or correct terrain.file.",

@@ -42,7 +42,7 @@ void add_bodies_on_lower_ground(const Simulation<Dim>& simulation, const std::ve
 // Ground below the top of the bodies where steps become much shorter than at the start.
 template <int Dim>
 void add_steep_ground(const Simulation<Dim>& simulation, const Raster& terrain, std::vector<std::string>& warnings) {
-  constexpr double much = 2.0;
+  constexpr double much = 2.5;  // more than grid.steepest allows by default
   const Model<Dim>& model = simulation.model();
   struct Steep {
     double slope = 0.0;

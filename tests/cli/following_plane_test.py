@@ -42,4 +42,4 @@ def test_areas_on_coarse_cells_are_those_of_fine_ones(
     assert facts["travel_distance_m"] == pytest.approx(1_335.0, rel=travel)
     assert 0.0 < facts["dilation_fraction"] < growth
     numerical = columns_of(tmp_path / level.key / "history.csv")["numerical_J"][-1]
-    assert abs(numerical) < 1e10  # of 1.6e13 J of potential energy
+    assert abs(numerical) < 1.2e10  # of 1.6e13 J of potential energy
