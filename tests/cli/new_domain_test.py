@@ -81,7 +81,8 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     assert cell_of(folder) == CELLS[chosen]
     found = re.search(
         rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; [0-9a-z %.()]+\n"
-        rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} of processor time( \(this machine is busy: .*\))?$",
+        rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} of processor time"
+        r"( \(this machine is busy: .*\))?$",
         printed,
         re.MULTILINE,
     )
