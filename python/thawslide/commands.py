@@ -39,6 +39,11 @@ def score() -> int:
     return run_command("thawslide score", "thawslide.scores.command")
 
 
+def pair() -> int:
+    """Run `thawslide run --pair`."""
+    return run_command("thawslide run --pair", "thawslide.pairs.command")
+
+
 def run_command(name: str, module: str) -> int:
     """Import a module and run its function `main`; return the exit code, 1 for an internal error."""
     try:

@@ -171,11 +171,14 @@ def _areas(run: Run) -> list[KeyNumber]:
     """Return the areas and volumes of a 3D run in run.json."""
     rows = []
     what, when = ("Deposit", "") if run.facts.get("at_rest") else ("Covered", f" at {run.last_state}")
-    least = f"{exact_text(float(run.section('maps').get('arrival_thickness', 0.0)))} m"
+    maps = run.section("maps")
+    least, thick = (f"{exact_text(float(maps.get(key, 0.0)))} m" for key in ("arrival_thickness", "area_thickness"))
     texts: tuple[tuple[str, str, Callable[[float], str], str], ...] = (
         ("Affected area", "affected_area_m2", area_text, f"horizontal, cells ever thicker than {least}"),
         (f"{what} volume{when}", "covered_volume_m3", volume_text, f"cells thicker than {least}"),
         (f"{what} area{when}", "covered_area_m2", area_text, "horizontal, of the same cells"),
+        ("Inundated area", "inundated_area_m2", area_text, f"map cells ever thicker than {thick}"),
+        (f"Area of the thick deposit{when}", "deposit_area_m2", area_text, f"map cells thicker than {thick}"),
     )
     for words, key, text, remark in texts:
         value = run.facts.get(key)

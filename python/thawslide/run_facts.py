@@ -30,6 +30,8 @@ NUMBERS = (
     "covered_volume_m3",
     "covered_area_m2",
     "affected_area_m2",
+    "deposit_area_m2",
+    "inundated_area_m2",
     "travel_distance_m",
     "drop_height_m",
     "reach_angle_degrees",

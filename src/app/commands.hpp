@@ -19,7 +19,8 @@ struct RunOptions {
   std::string device = "cpu";
   std::string output;
   bool overwrite = false;
-  std::string end;  // time.end [s]; empty: that of the case
+  std::string end;    // time.end [s]; empty: that of the case
+  bool pair = false;  // on cells of twice and four times the size as well
 };
 int run_case(const RunOptions& options);
 

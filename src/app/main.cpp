@@ -140,6 +140,9 @@ int run_program(int count, char** arguments) {
   run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)")
       ->check(is_no_empty_name);
   run->add_flag("--overwrite", run_options.overwrite, "Replace the run in the folder of the results");
+  run->add_flag("--pair", run_options.pair,
+                "Run on cells of twice and four times the size as well, and report results with their errors (calls "
+                "thawslide-pair; default folder: runs/NAME-pair)");
   run->callback([&] { exit_code = run_case(run_options); });
 
   ResumeOptions resume_options;

@@ -23,9 +23,33 @@ std::vector<std::string> with_end(std::vector<std::string> sets, const std::stri
   return sets;
 }
 
+// The same options for the Python program that runs the case on several cells.
+std::vector<std::string> arguments_of_pair(const RunOptions& options) {
+  std::vector<std::string> words{options.of_case.file, "--device", options.device};
+  for (const std::string& each : options.of_case.sets) {
+    words.insert(words.end(), {"--set", each});
+  }
+  if (options.threads > 0) {
+    words.insert(words.end(), {"--threads", std::to_string(options.threads)});
+  }
+  if (!options.end.empty()) {
+    words.insert(words.end(), {"--end", options.end});
+  }
+  if (!options.output.empty()) {
+    words.insert(words.end(), {"--output", options.output});
+  }
+  if (options.overwrite) {
+    words.emplace_back("--overwrite");
+  }
+  return words;
+}
+
 }  // namespace
 
 int run_case(const RunOptions& options) {
+  if (options.pair) {
+    return run_python_command("pair", arguments_of_pair(options));
+  }
   survive_closed_pipes();
   run::use_threads(options.threads);
   Terminal terminal;

@@ -15,6 +15,7 @@ struct Checkpoint {
 struct Maps {
   double cell = 0.0;               // m; 0: determined by the DEM and grid.cell
   double arrival_thickness = 0.1;  // m, thickness at which the slide has arrived
+  double area_thickness = 0.5;     // m, thickness from which ground counts as deposit or as inundated
   std::string path;                // line along which the front is measured
 };
 

@@ -219,6 +219,12 @@ std::vector<Parameter<Maps>> map_parameters() {
                                            .range = above(0),
                                            .text = "flow thickness above which the sliding mass has arrived",
                                            .dimension = 3}),
+      parameter(&Maps::area_thickness, {.key = "area_thickness",
+                                        .unit = "m",
+                                        .range = above(0),
+                                        .text = "thickness above which ground counts in the deposit area and the "
+                                                "inundated area of run.json",
+                                        .dimension = 3}),
       parameter(&Maps::path, {.key = "path",
                               .text = "file of the flow path along which the front is measured and `thawslide block` "
                                       "slides; \"\": path of the centre of mass",

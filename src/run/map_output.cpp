@@ -60,7 +60,7 @@ gis::MapLayer layer_of(const char* name, decltype(gis::MapLayer::features) featu
 }
 
 gis::MapLayer affected_layer(const sim::FlowMaps& maps, const MapTexts& texts) {
-  const gis::Polygons area = areas_of(maps.affected_cells());
+  const gis::Polygons area = areas_of(maps.affected_cells(maps.arrival_thickness()));
   return layer_of(
       "affected_area", std::vector<gis::Polygons>{area},
       {{"area_m2", std::vector{gis::area_of(area)}}, {"threshold_m", std::vector{maps.arrival_thickness()}}},
@@ -68,7 +68,7 @@ gis::MapLayer affected_layer(const sim::FlowMaps& maps, const MapTexts& texts) {
 }
 
 gis::MapLayer deposit_layer(const sim::FlowMaps& maps, const MapTexts& texts) {
-  const gis::Polygons area = areas_of(maps.covered_cells());
+  const gis::Polygons area = areas_of(maps.covered_cells(maps.arrival_thickness()));
   return layer_of("deposit_area", std::vector<gis::Polygons>{area},
                   {{"area_m2", std::vector{gis::area_of(area)}},
                    {"volume_m3", std::vector{maps.covered_volume()}},

@@ -26,6 +26,8 @@ constexpr ShownFigure shown_figures[] = {
     {.name = "covered_volume_m3", .label = "covered volume", .unit = "m3"},
     {.name = "covered_area_m2", .label = "covered area", .unit = "m2"},
     {.name = "affected_area_m2", .label = "affected area", .unit = "m2"},
+    {.name = "deposit_area_m2", .label = "deposit area", .unit = "m2"},
+    {.name = "inundated_area_m2", .label = "inundated area", .unit = "m2"},
     {.name = "front_distance_m", .label = "front position along the path", .unit = "m"},
     {.name = "travel_distance_m", .label = "travel distance", .unit = "m"},
     {.name = "drop_height_m", .label = "drop height", .unit = "m"},

@@ -340,16 +340,16 @@ double FlowMaps::covered_volume() const {
   return volume;
 }
 
-CoveredCells FlowMaps::cells_under(const MapKind& thickness) const {
+CoveredCells FlowMaps::cells_under(const MapKind& thickness, double least) const {
   const Raster at_start = raster(thickness_at_start, MapExtent::slide);
   const auto column = static_cast<int>(std::lround((at_start.x - map_grid_.x) / map_grid_.cell_x));
   const auto row = static_cast<int>(std::lround((at_start.y - map_grid_.y) / map_grid_.cell_y));
-  return sim::covered_cells(raster(thickness, MapExtent::slide), at_start, drawn_, column, row, arrival_thickness_);
+  return sim::covered_cells(raster(thickness, MapExtent::slide), at_start, drawn_, column, row, least);
 }
 
-CoveredCells FlowMaps::covered_cells() const { return cells_under(thickness_now); }
+CoveredCells FlowMaps::covered_cells(double least) const { return cells_under(thickness_now, least); }
 
-CoveredCells FlowMaps::affected_cells() const { return cells_under(largest_thickness); }
+CoveredCells FlowMaps::affected_cells(double least) const { return cells_under(largest_thickness, least); }
 
 std::vector<double> FlowMaps::state() const {
   std::vector<double> numbers{static_cast<double>(map_grid_.columns), static_cast<double>(map_grid_.rows)};

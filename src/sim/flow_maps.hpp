@@ -74,9 +74,9 @@ class FlowMaps {
   [[nodiscard]] Raster raster(const MapKind& kind, MapExtent extent) const;
   // Current volume of all cells thicker than the arrival thickness [m3].
   [[nodiscard]] double covered_volume() const;
-  // Ground that the slide covers now, and that it ever covered, by the arrival thickness (sim/covered_area.hpp).
-  [[nodiscard]] CoveredCells covered_cells() const;
-  [[nodiscard]] CoveredCells affected_cells() const;
+  // Ground that the slide covers now, and that it ever covered, with more than `least` [m] (sim/covered_area.hpp).
+  [[nodiscard]] CoveredCells covered_cells(double least) const;
+  [[nodiscard]] CoveredCells affected_cells(double least) const;
 
   // State for checkpoints, as numbers; restore() is its inverse.
   [[nodiscard]] std::vector<double> state() const;
@@ -120,7 +120,7 @@ class FlowMaps {
   void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
                const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
-  [[nodiscard]] CoveredCells cells_under(const MapKind& thickness) const;
+  [[nodiscard]] CoveredCells cells_under(const MapKind& thickness, double least) const;
 
   MapGrid map_grid_;
   mpm::MapCells cells_;

@@ -328,6 +328,7 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.contact.law = make_basal_law(parameters);
   model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
+  model.contact.reads_mass = model.contact.pore_pressure || model.contact.law.depends_on_mass();
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.band_columns = parameters.band.model == config::BandKind::columns;
   model.contact.distance_check = parameters.basal.distance_check;

@@ -13,7 +13,8 @@ double angle_of_reach(double drop_height, double travel_distance) {
 
 std::vector<std::pair<std::string, double>> named(const RunFigures& figures) {
   return {{"covered_volume_m3", figures.covered_volume},  {"covered_area_m2", figures.covered_area},
-          {"affected_area_m2", figures.affected_area},    {"front_distance_m", figures.front_distance},
+          {"affected_area_m2", figures.affected_area},    {"deposit_area_m2", figures.deposit_area},
+          {"inundated_area_m2", figures.inundated_area},  {"front_distance_m", figures.front_distance},
           {"travel_distance_m", figures.travel_distance}, {"drop_height_m", figures.drop_height},
           {"reach_angle_degrees", figures.reach_angle}};
 }

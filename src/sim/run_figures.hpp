@@ -15,6 +15,8 @@ struct RunFigures {
   double covered_volume = 0.0;   // current, of cells thicker than maps.arrival_thickness [m3]
   double covered_area = 0.0;     // horizontal, of the same cells (sim/covered_area.hpp) [m2]
   double affected_area = 0.0;    // covered at any time [m2]
+  double deposit_area = 0.0;     // of cells now thicker than maps.area_thickness [m2]
+  double inundated_area = 0.0;   // of cells ever thicker than it [m2]
   double front_distance = 0.0;   // of the front, along the path from its first corner [m]
   double travel_distance = 0.0;  // horizontal, along the path, from the release's rear end to the front [m]
   double drop_height = 0.0;      // of the ground at the front below the highest point of the release [m]

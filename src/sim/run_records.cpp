@@ -232,9 +232,13 @@ std::optional<RunFigures> RunRecords<Dim>::figures(
   if (!maps_) {
     return {};
   }
+  const double arrival = maps_->arrival_thickness();
+  const double least = simulation.parameters().maps.area_thickness;
   RunFigures figures{maps_->covered_volume(),
-                     maps_->covered_cells().area(),
-                     maps_->affected_cells().area(),
+                     maps_->covered_cells(arrival).area(),
+                     maps_->affected_cells(arrival).area(),
+                     maps_->covered_cells(least).area(),
+                     maps_->affected_cells(least).area(),
                      unknown,
                      unknown,
                      unknown,

@@ -74,7 +74,8 @@ double Simulation<Dim>::time_after(double dt) {
 template <int Dim>
 void Simulation<Dim>::step_on_cpu(const terrain::StrengthLaw* strength) {
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
-  stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
+  const bool reads_mass = model_.contact.reads_mass || strength != nullptr;
+  stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(reads_mass); });
   if (parameters_.mechanics.enabled) {
     stopwatch_.time("momentum_to_grid", [&] { momentum_to_grid(); });
     stopwatch_.time("resolve_contact", [&] { resolve_contact(strength); });
@@ -130,11 +131,11 @@ void Simulation<Dim>::update_ground() const {
 }
 
 template <int Dim>
-void Simulation<Dim>::average_band_on_grid() {
+void Simulation<Dim>::average_band_on_grid(bool reads_mass) {
   if (model_.band.rescaling_mixes) {
     rescale_band();  // changes temperatures
   }
-  if (!band_columns_ && (model_.ground || model_.band.heat || model_.band.pressure)) {
+  if (!band_columns_ && ((model_.ground && reads_mass) || model_.band.heat || model_.band.pressure)) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
   }
 }
@@ -144,20 +145,23 @@ void Simulation<Dim>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
-// Nodes within reach of band columns take the state of the base from these. Only the other nodes need the particles.
+// Nodes within reach of band columns take the state of the base from these. Only the other nodes need the particles,
+// and only if the laws depend on them.
 template <int Dim>
-void Simulation<Dim>::press_on_ground() {
+void Simulation<Dim>::press_on_ground(bool reads_mass) {
   if (!model_.ground) {
     return;
   }
-  if (band_columns_) {
+  if (band_columns_ || !reads_mass) {
     terrain::clearance_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
-    band_columns_->to_nodes(grid_, nodes_);
   } else {
     terrain::near_ground_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
   }
+  if (band_columns_) {
+    band_columns_->to_nodes(grid_, nodes_);
+  }
   terrain::press_on_ground(grid_, *ground_, model_.constraints, model_.contact, static_cast<Real>(time_), dt_, nodes_);
-  if (band_columns_ && terrain::loads_bare_ground(grid_, nodes_)) {
+  if (band_columns_ && reads_mass && terrain::loads_bare_ground(grid_, nodes_)) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
     terrain::near_ground_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
   }
@@ -169,7 +173,7 @@ void Simulation<Dim>::resolve_contact(const terrain::StrengthLaw* strength) {
     body_contact_->add_forces(grid_, particles_, model_.between_bodies, model_.motion.sizes,
                               model_.contact.mass_damping, dt_, nodes_);
   }
-  press_on_ground();
+  press_on_ground(model_.contact.reads_mass || strength != nullptr);
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_, bed_to_meet(), strength);
   contact_.force[0] -= force_of_walls_;  // the walls are part of the ground

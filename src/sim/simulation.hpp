@@ -216,8 +216,8 @@ class Simulation {
   // Updates the heights of particles above the ground.
   void locate_particles() const;
   void momentum_to_grid();
-  void average_band_on_grid();
-  void press_on_ground();
+  void average_band_on_grid(bool reads_mass);
+  void press_on_ground(bool reads_mass);
   void resolve_contact(const terrain::StrengthLaw* strength);
   void move_particles();
   void update_stress_and_porosity();

@@ -26,6 +26,14 @@ struct BasalLaw {
   bool cap_pressure = false;  // P at most N
   Real heat_fraction = 1;     // fraction of the friction work converted to heat (conversion coefficient)
   Real gravity = 0;           // [m/s2]
+
+  // True if a law depends on temperature, saturation, solid fraction or slip of the mass.
+  [[nodiscard]] bool depends_on_mass() const {
+    const auto of_law = []<class Law>(const Law& /*law*/) { return Law::depends_on_mass; };
+    return std::any_of(grounds.begin(), grounds.end(), [&](const GroundLaw& each) {
+      return std::visit(of_law, each.friction) || std::visit(of_law, each.cohesion);
+    });
+  }
 };
 
 // State and strength of up to `capacity` contact nodes, one array per quantity.

@@ -33,10 +33,10 @@ struct BlockContact {
 
 template <int Dim>
 void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
-                      const ContactModel<Dim>& model, const GroundAtNode<Dim>& ground, const NodeState<Dim>& state,
-                      BlockContact<Dim>& contact) {
+                      const ContactModel<Dim>& model, bool reads_mass, const GroundAtNode<Dim>& ground,
+                      const NodeState<Dim>& state, BlockContact<Dim>& contact) {
   const bool on_columns = model.band_columns && nodes.base_state(b, k)[mpm::BaseState::area] > Real(0);
-  auto known = on_columns
+  auto known = on_columns || !reads_mass
                    ? loaded_node<Dim>(pressure, ground.normal, state)
                    : contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
                                      pressure, model.pore_pressure, ground.normal, state);
@@ -86,11 +86,11 @@ Real normal_pressure(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
   });
 }
 
-// Finds the loaded nodes of a block with candidate nodes, and evaluates the laws of the case. finish(state, k): called
-// for all other nodes with mass.
+// Finds the loaded nodes of a block with candidate nodes, and evaluates the laws of the case. reads_mass: as in
+// ContactModel, true for a law of the caller. finish(state, k): called for all other nodes with mass.
 template <int Dim, class Finish>
 void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                  const typename GroundOnGrid<Dim>::Block* known, const ContactModel<Dim>& model,
+                  const typename GroundOnGrid<Dim>::Block* known, const ContactModel<Dim>& model, bool reads_mass,
                   const mpm::BlockConstraints<Dim>& on_block, std::size_t b, Real time, Real dt,
                   const mpm::Nodes<Dim>& nodes, BlockContact<Dim>& contact, const Finish& finish) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
@@ -101,8 +101,8 @@ void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* gro
     const mpm::NodeConstraints<Dim> walls{on_block, k};
     const auto state = trial_state<Dim>(walls, dt, model.mass_damping, nodes.momentum(b, k));
     if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-      add_contact_node(nodes, b, k, normal_pressure(grid, *ground, nodes, b, k, dt), dt, model, (*known)[k], state,
-                       contact);
+      add_contact_node(nodes, b, k, normal_pressure(grid, *ground, nodes, b, k, dt), dt, model, reads_mass, (*known)[k],
+                       state, contact);
     } else {
       finish(state, k);
     }
@@ -181,8 +181,8 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
     given.first.push_back(given.nodes.strength.size());
     if (const auto* known = candidates_of(ground, b); known != nullptr) {
       BlockContact<Dim> contact;
-      find_contact(grid, ground, known, model, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time, dt,
-                   nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
+      find_contact(grid, ground, known, model, true, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time,
+                   dt, nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
       add_loaded_nodes(grid, *known, b, contact, given.nodes);
     }
   }
@@ -312,7 +312,8 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
       }
     };
     BlockContact<Dim> contact;
-    find_contact(grid, ground, known, model, on_block, b, time, dt, nodes, contact, finish);
+    find_contact(grid, ground, known, model, model.reads_mass || strength != nullptr, on_block, b, time, dt, nodes,
+                 contact, finish);
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
       const Real limit = model.base_is_fixed ? std::numeric_limits<Real>::infinity()

@@ -22,6 +22,7 @@ struct ContactModel {
   mpm::SectionWidth width;      // of a 2D section
   bool base_is_fixed = false;   // no slip, during gravity settling
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  bool reads_mass = true;       // the laws depend on P, T, S, n_e or the slip of the mass at nodes
   bool band_columns = false;    // the basal state is that of nodes.base_state
   Real mass_damping = 0;        // [1/s]
   bool distance_check = false;  // contact acts only after a node has closed its clearance
@@ -39,9 +40,10 @@ template <int Dim>
 bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes);
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null; with
-// ground, call press_on_ground before. Requires nodes.averages, nodes.state and nodes.near_ground of this step, except
-// at nodes with band columns. Entrainment is stored in nodes.bed; bed may be null. strength: replaces the strengths of
-// the case's laws unless it is null or the base is fixed.
+// ground, call press_on_ground before. Requires the clearance of this step, and if the mass is read, also
+// nodes.averages, nodes.state and nodes.near_ground, except at nodes with band columns. Entrainment is stored in
+// nodes.bed; bed may be null. strength: replaces the strengths of the case's laws unless it is null or the base is
+// fixed.
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                                  const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,

@@ -30,6 +30,8 @@ NUMBERS = {
     "max_seismic_force_N": ("maximum seismic force", "N"),
     "affected_area_m2": ("affected area", "m2"),
     "covered_area_m2": ("covered area", "m2"),
+    "deposit_area_m2": ("deposit area", "m2"),
+    "inundated_area_m2": ("inundated area", "m2"),
     "covered_volume_m3": ("covered volume", "m3"),
 }
 _UNITS_OF_PROBES = {"_thickness_m": "m", "_speed_m_s": "m/s", "_passed_volume_m3": "m3"}

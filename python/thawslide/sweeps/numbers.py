@@ -27,7 +27,14 @@ _PEAKS = (
     ("band_max_pressure_ratio", "max_pressure_ratio"),
 )  # column of the history, and the name of its maximum
 _LAST = ("mean_displacement_m", "runout_m", "entrained_volume_m3", "left_mass_kg", "dilation_fraction")
-_FACTS = ("affected_area_m2", "covered_area_m2", "covered_volume_m3", "reach_angle_degrees")
+_FACTS = (
+    "affected_area_m2",
+    "covered_area_m2",
+    "deposit_area_m2",
+    "inundated_area_m2",
+    "covered_volume_m3",
+    "reach_angle_degrees",
+)
 
 
 def numbers_of_run(run: Run, expressions: Sequence[Expression]) -> dict[str, float]:

@@ -15,6 +15,7 @@ struct BondsCohesion {
   static constexpr const char* keyword = "bonds";
   static constexpr const char* text =
       "c_S = cohesion exp(-slip/slip_distance) (1 - S_L): bonds of ice, lost completely";
+  static constexpr bool depends_on_mass = true;
   static constexpr auto parameters = parameter_list(initial_cohesion, slip_distance);
 
   Real initial;   // c_0 [Pa]

@@ -12,6 +12,7 @@ struct CoefficientFriction {
   static constexpr const char* keyword = "coefficient";
   static constexpr const char* text = "friction_coefficient times N, independent of pore pressure";
   static constexpr bool depends_on_pore_pressure = false;
+  static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(friction_coefficient);
 
   Real given;  // mu

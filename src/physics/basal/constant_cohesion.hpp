@@ -9,6 +9,7 @@ namespace thawslide::physics::basal {
 struct ConstantCohesion {
   static constexpr const char* keyword = "constant";
   static constexpr const char* text = "c_S = cohesion, constant";
+  static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(initial_cohesion);
 
   Real initial;  // c_0 [Pa]

@@ -12,6 +12,7 @@ struct ConstantFriction {
   static constexpr const char* keyword = "constant";
   static constexpr const char* text = "mu_e = tan(friction_angle)";
   static constexpr bool depends_on_pore_pressure = true;
+  static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(friction_angle);
 
   Real full_coefficient;  // tan(phi_f)

@@ -10,6 +10,7 @@ namespace thawslide::physics::basal {
 struct IceCohesion {
   static constexpr const char* keyword = "ice";
   static constexpr const char* text = "c_S = cohesion (1 - S_L), proportional to the ice in the pores";
+  static constexpr bool depends_on_mass = true;
   static constexpr auto parameters = parameter_list(initial_cohesion);
 
   Real initial;  // c_0 [Pa]

@@ -35,6 +35,7 @@ struct LubricatedFriction {
   static constexpr const char* keyword = "lubricated";
   static constexpr const char* text = "mu_e = tan(friction_angle) times a factor that decreases as ice melts (Eq. 25)";
   static constexpr bool depends_on_pore_pressure = true;
+  static constexpr bool depends_on_mass = true;
   static constexpr auto parameters =
       parameter_list(friction_angle, lubrication_exponent, min_solid_fraction, max_solid_fraction);
 

@@ -1,6 +1,7 @@
 // Declaration of a basal law (Eq. 17) and its parameters in the case file. A law is a struct in a separate header, with
 // one line in laws.hpp. It has
 //   keyword, text       keyword in the case file, and description
+//   depends_on_mass     whether it reads temperature, saturation, solid fraction or slip of the node
 //   parameters          its numbers, declared there or shared with other laws (shared_parameters.hpp)
 //   from(numbers)       creates the law from a function that returns the number of a parameter
 //   coefficient(node)   friction law: mu_e; depends_on_pore_pressure: applied to N - P; optional drag(node):

@@ -12,6 +12,7 @@ namespace thawslide::physics::basal {
 struct SlipCohesion {
   static constexpr const char* keyword = "slip";
   static constexpr const char* text = "c_S = c_r + (c_0 - c_r) exp(-slip/slip_distance)";
+  static constexpr bool depends_on_mass = true;
   static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, slip_distance);
 
   Real initial, residual;  // c_0, c_r [Pa]

@@ -15,6 +15,7 @@ inline constexpr Parameter cohesion_loss_time{.key = "cohesion_loss_time",
 struct TimeCohesion {
   static constexpr const char* keyword = "time";
   static constexpr const char* text = "c_S = cohesion before cohesion_loss_time, residual_cohesion after it";
+  static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, cohesion_loss_time);
 
   Real initial, residual;  // c_0, c_r [Pa]

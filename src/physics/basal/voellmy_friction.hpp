@@ -24,6 +24,7 @@ struct VoellmyFriction {
   static constexpr const char* text =
       "friction_coefficient (N - P) + rho g v^2/turbulent_friction, with the slip speed v";
   static constexpr bool depends_on_pore_pressure = true;
+  static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(friction_coefficient, turbulent_friction);
 
   Real given;       // mu

@@ -97,7 +97,7 @@ inline const std::string release_on_dem = one_key_per_line(R"(
 [time] end = 4.5 | step = 0.25
 [grid] cell = 2.5 | min = [-5.0, 0.0, -10.0] | max = [95.0, 10.0, 40.0]
 [terrain] type = "dem" | file = "inputs/dem.tif" | crs = "EPSG:31287" | resample = 10.0 | smooth = 2.5
-[maps] cell = 20.0 | arrival_thickness = 0.5 | path = "inputs/path.geojson"
+[maps] cell = 20.0 | arrival_thickness = 0.5 | area_thickness = 0.2 | path = "inputs/path.geojson"
 [probe.gauge] line = "inputs/section.geojson"
 [material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25 | viscosity_number = 0.5
 [body.block] material = "rock" | shape = "release" | release = "inputs/release.shp" |

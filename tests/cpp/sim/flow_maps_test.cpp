@@ -112,8 +112,8 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   EXPECT_NEAR(maps.cell(7, 11).thickness, 3.0 * 0.75 / 1.5, 1e-12);
   EXPECT_TRUE(std::isnan(maps.cell(8, 8).max_speed));
   EXPECT_NEAR(maps.covered_volume(), 72.0, 1e-10);
-  EXPECT_NEAR(maps.covered_cells().area(), 24.0, 1e-12) << "half of two columns of cells, and not all of them";
-  EXPECT_NEAR(maps.affected_cells().area(), 24.0, 1e-12);
+  EXPECT_NEAR(maps.covered_cells(0.1).area(), 24.0, 1e-12) << "half of two columns of cells, and not all of them";
+  EXPECT_NEAR(maps.affected_cells(0.1).area(), 24.0, 1e-12);
 }
 
 TEST(FlowMaps, SumsEqualThoseOfTheParticlesOnAnyGrid) {
@@ -220,7 +220,7 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
     of_thin.gather(simulation.grid(), simulation.particles(), simulation.time());
     warning();
   }
-  EXPECT_EQ(maps.covered_cells().area(), 0.0);
+  EXPECT_EQ(maps.covered_cells(0.1).area(), 0.0);
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_speed));
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_pressure));
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).arrival_time));
@@ -236,7 +236,7 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
   EXPECT_EQ(thin.arrival_time, 0.0);
   EXPECT_NEAR(thin.max_speed, speed, 1e-12 * speed);
   EXPECT_NEAR(thin.max_pressure, pressure, 1e-12 * pressure);
-  EXPECT_EQ(of_thin.covered_cells().area(), area);
+  EXPECT_EQ(of_thin.covered_cells(of_thin.arrival_thickness()).area(), area);
 }
 
 TEST(FlowMaps, ASlideThatMovesAwayLeavesEmptyCells) {

@@ -1,0 +1,107 @@
+"""Command `thawslide run CASE --pair`: the case on cells of 2h, 4h and h, and the errors of its results."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import subprocess
+import sys
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from thawslide import _core
+from thawslide._core import UserError
+from thawslide.case import toml_text
+from thawslide.commands import print_line
+from thawslide.errors import ReportError
+from thawslide.maps import on_map
+from thawslide.number_text import exact_text
+from thawslide.pairs.output import write_pair
+from thawslide.program import find_program
+from thawslide.run_folder import Run
+
+FACTORS = (2, 4, 1)  # cells over that of the case; the first run sets the map cell of all
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code: that of the program if a run fails."""
+    given = _parser().parse_args(arguments)
+    try:
+        case = _values(given.case, given.sets)
+        cell, corner = float(case["grid"]["cell"]), _upper_corner(case["grid"])
+        changes: dict[str, object] = {"grid.max": corner}
+        output = Path(given.output or Path("runs") / f"{Path(given.case).resolve().stem}-pair")
+        runs: dict[int, Run] = {}
+        for factor in FACTORS:
+            print_line(f"pair: cells of {exact_text(factor * cell)} m")
+            folder = output / ("h" if factor == 1 else f"{factor}h")
+            code = _run(given, {**changes, "grid.cell": factor * cell}, folder)
+            if code == 0:
+                runs[factor] = run = Run(folder)
+                if on_map(run):
+                    changes["maps.cell"] = run.maps["max_thickness"].grid.cell_x
+            elif factor != max(FACTORS):
+                return code
+            else:
+                print_line("note: without this run, no result is extrapolated.")
+        text, files = write_pair(runs, cell, output)
+    except (ReportError, UserError) as error:
+        print_line(f"thawslide run --pair: error: {error}", sys.stderr)
+        return 2
+    print_line(f"\n{text}\n")
+    for path in files:
+        print_line(f"pair: {path}")
+    return 0
+
+
+def _values(file: str, sets: Sequence[str]) -> dict[str, Any]:
+    """Return the keys of the case with the changes of the command line."""
+    case = _core.case_of(_core.read_case_files(str(Path(file).absolute())), [(each, str(Path.cwd())) for each in sets])
+    return tomllib.loads(_core.resolved_toml(case))
+
+
+def _run(given: argparse.Namespace, changes: Mapping[str, object], folder: Path) -> int:
+    """Run the case with changed keys; return the exit code of the program."""
+    program = find_program()
+    if program is None:
+        raise ReportError("the program thawslide was not found. Install the package again, or put it on PATH.")
+    words = [program, "run", given.case, "--output", str(folder), "--device", given.device]
+    words += ["--overwrite"] if given.overwrite else []
+    words += ["--threads", given.threads] if given.threads else []
+    words += ["--end", given.end] if given.end else []
+    sets = [each for each in given.sets if each.partition("=")[0].strip() not in changes]
+    sets += [f"{key}={toml_text(value)}" for key, value in changes.items()]
+    return subprocess.run([*words, *(word for each in sets for word in ("--set", each))], check=False).returncode
+
+
+def _upper_corner(grid: Mapping[str, Any]) -> list[float]:
+    """Return the upper corner [m] of a domain that is a whole number of the largest cells.
+
+    It is lower by less than such a cell along the horizontal axes, because a DEM must cover it, and higher above.
+    """
+    largest = max(FACTORS) * float(grid["cell"])
+    low, high = grid["min"], grid["max"]
+    counts = [(b - a) / largest for a, b in zip(low, high, strict=True)]
+    whole = [math.floor(count + 1e-9) for count in counts[:-1]] + [math.ceil(counts[-1] - 1e-9)]
+    return [a + max(1, count) * largest for a, count in zip(low, whole, strict=True)]
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="thawslide run --pair",
+        description="Run a case on cells of twice, four times and once its size; report results with their errors.",
+    )
+    add = parser.add_argument
+    add("case", metavar="CASE", help="case file, or the folder of a case.toml")
+    add("--set", dest="sets", action="append", default=[], metavar="KEY=VALUE", help="as for run")
+    for name in ("--threads", "--end", "--output"):
+        add(name, help="as for run")
+    add("--device", default="cpu", help="as for run")
+    add("--overwrite", action="store_true", help="as for run")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())
