@@ -11,7 +11,19 @@ from matplotlib.figure import Figure
 from reproduction.band_model import BandHistory, Drive, solve
 from reproduction.mixture import TABLE_1
 from reproduction.runs import BLOCKS, NO_LATENT
-from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, styled, title_panels
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    ORANGE,
+    PURPLE,
+    RED,
+    TIME_LABEL,
+    styled,
+    title_panels,
+)
 from thawslide.run_folder import Numbers, Run
 
 COLUMNS = (
@@ -200,7 +212,7 @@ def _plot(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             axes.set_ylabel(words)
             axes.grid(True)
             axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
-        panels[2][side].set_xlabel(runs[f"block-{drawn[0][0]}"].time_reference.label)
+        panels[2][side].set_xlabel(TIME_LABEL)
         panels[1][side].set_ylim(-0.02, 1.02)
         mark(panels[1][side], EARLY, 1.0, "Lei et al.: melted", drawn[0][2])  # of e = 0.05 m
         panels[0][side].plot(

@@ -8,7 +8,18 @@ from matplotlib.figure import Figure
 from reproduction.block import at, first_time, mark
 from reproduction.mixture import TABLE_1
 from reproduction.runs import INCLINES
-from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, styled, time_line, title_panels
+from thawslide.figures.style import (
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    ORANGE,
+    RED,
+    TIME_LABEL,
+    styled,
+    time_line,
+    title_panels,
+)
 from thawslide.run_folder import Numbers, Run
 
 GRAVITY, SLOPE, HEIGHT = 9.81, np.radians(40.0), 50.0
@@ -145,7 +156,7 @@ def _plot(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...
             dashes = "--" if name == "PL" else "-"  # it often coincides with D-L-P
             time_line(panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name])
         panel.set_ylabel(words)
-        panel.set_xlabel(runs["incline-DLP"].time_reference.label)
+        panel.set_xlabel(TIME_LABEL)
         panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
         panel.grid(True)
     axes[0].legend(loc="best")

@@ -21,6 +21,7 @@ from thawslide.figures.style import (
     NOTE,
     ORANGE,
     RED,
+    TIME_LABEL,
     styled,
     time_axis,
     time_line,
@@ -242,7 +243,7 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     section.fill_between(ground_x / 1e3, ground_z, ground_z.min() - 50.0, color="#E4E0DA")
     for index, colour, words in (
         (0, NOTE, "start"),
-        (-1, RED, f"end, t = {run.times[-1] + run.time_reference.shift:.4g} s"),
+        (-1, RED, f"end, t = {run.times[-1]:.4g} s"),
     ):
         points = run.snapshot(index).points
         section.plot(points[:, 0] / 1e3, points[:, 1], ".", color=colour, markersize=1.5, label=words)
@@ -298,7 +299,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     speed.set_ylabel("mean velocity (m/s)")
     distance.set_ylabel("mean displacement (km)")
     for axes in (speed, distance):
-        time_axis(axes, time, run.time_reference.label)
+        time_axis(axes, time, TIME_LABEL)
         axes.set_ylim(bottom=0.0)
         # Legends below the panels do not cover reported values.
         axes.legend(loc="upper left", bbox_to_anchor=(-0.14, -0.2), handlelength=1.5)

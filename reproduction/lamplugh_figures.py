@@ -13,7 +13,18 @@ from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.load import load_on_band
 from thawslide.figures.snapshots import Zone as SnapshotZone
 from thawslide.figures.snapshots import plastic_strain, velocity
-from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, styled, time_axis, time_line, title_panels, warn
+from thawslide.figures.style import (
+    BLUE,
+    COLUMN_WIDTH,
+    NOTE,
+    RED,
+    TIME_LABEL,
+    styled,
+    time_axis,
+    time_line,
+    title_panels,
+    warn,
+)
 from thawslide.run_folder import Numbers, Run
 from thawslide.unphysical import too_hot, too_much_for_overburden
 
@@ -37,13 +48,13 @@ def figure_15(runs: dict[str, Run]) -> Figure:
 
 def _pair(axes: Axes, run: Run, left: tuple[Numbers, str], right: tuple[Numbers, str]) -> Axes:
     """Plot one curve on the left axis in red, another on the right axis in blue; return the right axes."""
-    other, time = axes.twinx(), run.shown_time
+    other, time = axes.twinx(), run.history["time_s"]
     for panel, (values, words), colour in ((axes, left, RED), (other, right, BLUE)):
         time_line(panel, time, values, color=colour)
         panel.set_ylabel(words, color=colour)
         panel.tick_params(axis="y", colors=colour)
     other.spines["right"].set_visible(True)
-    time_axis(axes, time, run.time_reference.label)
+    time_axis(axes, time, TIME_LABEL)
     return other
 
 
@@ -68,7 +79,7 @@ def _at_the_peak(axes: Axes, words: str, height: float, alignment: str) -> None:
 def figure_17(runs: dict[str, Run]) -> Figure:
     """Plot the contact force (red) and the mean plastic strain (blue) in one panel."""
     run = runs["lamplugh"]
-    time = run.shown_time
+    time = run.history["time_s"]
     _, magnitude = seismic_force(run)
     force = magnitude / 1e12
     figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
@@ -111,7 +122,7 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     heat.set_xlabel("")
     pressure.set_ylim(bottom=0.0)
     when, load = load_on_band(run)
-    over = np.interp(when, run.shown_time, history["band_pore_pressure_Pa"]) / load
+    over = np.interp(when, run.history["time_s"], history["band_pore_pressure_Pa"]) / load
     found = (
         too_hot(run, history["band_temperature_C"], history["band_pore_pressure_Pa"]),
         too_much_for_overburden(over),

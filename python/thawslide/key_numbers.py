@@ -34,12 +34,10 @@ def stop_time(run: Run, below: float | None = None) -> float | None:
 def key_numbers(run: Run) -> list[KeyNumber]:
     """Return the rows for which the run has columns."""
     history = run.history
-    time = run.shown_time
-    first, last = (number_text(float(time[end])) for end in (0, -1))
-    span = f"{first} s to {last} s in the times of this page" if run.time_reference.shift else ""
+    time = run.history["time_s"]
     rows = main_numbers(run)
     end = float(history["time_s"][-1])
-    rows.append(KeyNumber("Simulated time", quantity_text(end, "s"), span, "simulated_time_s", end))
+    rows.append(KeyNumber("Simulated time", quantity_text(end, "s"), "", "simulated_time_s", end))
     if "mean_velocity_m_s" in history:
         speed = history["mean_velocity_m_s"]
         if np.isfinite(speed).any():
@@ -72,7 +70,7 @@ def found_for(run: Run, target: Target) -> str:
     if not quantity_of(target.quantity).is_compared:
         return "not compared"
     if quantity_of(target.quantity).column in run.history:
-        first, last = (float(run.shown_time[end]) for end in (0, -1))
+        first, last = (float(run.history["time_s"][end]) for end in (0, -1))
         if has_time_reference(run) and not first <= target.time <= last:
             return f"not compared: time outside the run ({number_text(first)} to {number_text(last)} s)"
     value = _found(run, target)
@@ -99,7 +97,7 @@ def _found(run: Run, target: Target) -> float | None:
     if quantity.column in history:
         if not has_time_reference(run):
             return None
-        return float(np.interp(target.time, run.shown_time, history[quantity.column]))
+        return float(np.interp(target.time, run.history["time_s"], history[quantity.column]))
     if quantity.fact:
         fact = run.facts.get(quantity.fact)
         return None if fact is None else float(fact)
@@ -119,7 +117,7 @@ def boiling_note(run: Run) -> str:
     values = run.history["band_temperature_C"]
     if not np.any(values > BOILING):
         return ""
-    first = float(run.shown_time[int(np.argmax(values > BOILING))])
+    first = float(run.history["time_s"][int(np.argmax(values > BOILING))])
     highest = quantity_text(float(np.nanmax(values)), "°C")
     reason = "heat.steam is false" if run.has_band_columns else "the model has no boiling in particles"
     return (
@@ -136,7 +134,7 @@ def _stop_number(run: Run) -> KeyNumber:
     stopped = since if since is not None else None if run.is_moving_at_end else stop_time(run)
     if stopped is None:
         return KeyNumber("Stop time", "not reached", f"mean velocity at {run.last_state}: {last}", key)
-    value = quantity_text(float(stopped) + run.time_reference.shift, "s")
+    value = quantity_text(float(stopped), "s")
     return KeyNumber("Stop time", value, remark, key, float(stopped))
 
 
@@ -165,7 +163,7 @@ def _force_numbers(run: Run) -> list[KeyNumber]:
     for words, (key, magnitude) in forces.items():
         if np.isfinite(magnitude).any():
             at = int(np.nanargmax(magnitude))
-            when = f"at {quantity_text(float(run.shown_time[at]), 's')}"
+            when = f"at {quantity_text(float(run.history['time_s'][at]), 's')}"
             peak = float(magnitude[at])
             rows.append(KeyNumber(f"Maximum seismic force{words}", quantity_text(peak, unit), when, key, peak))
     return rows
@@ -183,7 +181,7 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
             values = run.history[column]
             if np.isfinite(values).any():
                 at = int(np.nanargmax(values))
-                peak, when = float(values[at]), f"at {quantity_text(float(run.shown_time[at]), 's')}"
+                peak, when = float(values[at]), f"at {quantity_text(float(run.history['time_s'][at]), 's')}"
                 rows.append(KeyNumber(words, quantity_text(peak, unit), when, key, peak))
             else:
                 rows.append(KeyNumber(words, "none", "no particles in the band", key))

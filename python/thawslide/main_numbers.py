@@ -103,7 +103,9 @@ def _front_numbers(run: Run) -> list[KeyNumber]:
             words, where = ("Runout distance", "along x: ") if is_tilted else ("Runout distance L", "")
             rows.append(_along_path(words, runout[-1], where + remark, "runout_distance_m"))
         first = int(np.argmax(np.isfinite(runout)))  # 0 if all are unknown
-        since = "the start" if first == 0 else f"{quantity_text(float(run.shown_time[first]), 's')}, the first known"
+        since = (
+            "the start" if first == 0 else f"{quantity_text(float(run.history['time_s'][first]), 's')}, the first known"
+        )
         remark = f"front at {run.last_state} minus front at {since}"
         rows.append(_along_path("Front travel distance", runout[-1] - runout[first], remark, "front_travel_distance_m"))
     return rows
@@ -153,14 +155,14 @@ def _section_peaks(run: Run) -> list[KeyNumber]:
     rows = []
     if (fastest := peak_particle_speed(run)) is not None:
         speed, row = fastest
-        when = f"at {quantity_text(float(run.shown_time[row]), 's')}"
+        when = f"at {quantity_text(float(run.history['time_s'][row]), 's')}"
         rows.append(
             KeyNumber("Peak speed", quantity_text(speed, "m/s"), f"of any particle, {when}", "peak_speed_m_s", speed)
         )
     found = peak_thickness(run) if run.dimension == 2 else None
     if found is not None:
         thickness, time = found
-        when = f"at {quantity_text(time + run.time_reference.shift, 's')}"
+        when = f"at {quantity_text(time, 's')}"
         direction = "normal to x" if run.gravity_tilt else "vertical"
         remark = f"{direction}, mean over a grid cell along the section, maximum of the snapshots ({when})"
         rows.append(KeyNumber("Peak flow thickness", metres(thickness), remark, "peak_thickness_m", thickness))
@@ -189,15 +191,12 @@ def _areas(run: Run) -> list[KeyNumber]:
 
 def _arrivals(run: Run) -> list[KeyNumber]:
     """Return arrival times: at the last point reached and at probes in 3D, near the final front in 2D."""
-    shift = run.time_reference.shift
     if on_map(run):
         latest = maximum_of_map(run, "arrival_time")
         rows = []
         if latest is not None:
             remark = "time at which the last map cell of the affected area is reached"
-            rows.append(
-                KeyNumber("Latest arrival time", quantity_text(latest + shift, "s"), remark, _ARRIVAL_KEY, latest)
-            )
+            rows.append(KeyNumber("Latest arrival time", quantity_text(latest, "s"), remark, _ARRIVAL_KEY, latest))
         return rows + _probe_arrivals(run)
     if "runout_m" not in run.history or not run.history["runout_m"][-1] > 0.0:
         return []
@@ -205,13 +204,13 @@ def _arrivals(run: Run) -> list[KeyNumber]:
     at = int(np.argmax(runout >= ARRIVED * runout[-1]))
     remark = f"time at which the front attains {number_text(100.0 * ARRIVED)} % of its final runout distance"
     time = float(run.history["time_s"][at])
-    return [KeyNumber("Arrival time", quantity_text(time + shift, "s"), remark, _ARRIVAL_KEY, time)]
+    return [KeyNumber("Arrival time", quantity_text(time, "s"), remark, _ARRIVAL_KEY, time)]
 
 
 def _probe_arrivals(run: Run) -> list[KeyNumber]:
     rows = []
     for each in arrivals(run):
-        value = quantity_text(each.time + run.time_reference.shift, "s") if np.isfinite(each.time) else "not reached"
+        value = quantity_text(each.time, "s") if np.isfinite(each.time) else "not reached"
         words, key = f"Arrival time at probe {each.probe}", f"{each.probe}_{_ARRIVAL_KEY}"
         rows.append(KeyNumber(words, value, "first row of probes.csv above that thickness", key, each.time))
     return rows

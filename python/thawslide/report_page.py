@@ -138,7 +138,6 @@ def _page(run: Run, report: Report, view: str) -> str:
         f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
         *(f'<p class="note">{html.escape(note)}</p>' for note in _notes(run, report) if note),
         "<h2>Key numbers</h2>",
-        *([_times(run)] if _is_aligned(run) else []),
         table(((row.words, row.value, row.remark) for row in key_numbers(run)), "numbers"),
     ]
     if found := balances(run):
@@ -146,7 +145,7 @@ def _page(run: Run, report: Report, view: str) -> str:
         parts += ["<h2>Balances</h2>", table(rows, "numbers")]
     if run.targets:
         tables = "\n".join(_target_tables(run))
-        parts.append(details("Reported values", tables if _is_aligned(run) else f"{tables}\n{_times(run)}"))
+        parts.append(details("Reported values", f"{tables}\n{_times(run)}"))
     if view:
         parts += ['<h2 id="interactive">Interactive view</h2>', view]
     events = events_part({"this run": mobility_of(run)}) if run.dimension == 3 else ""
@@ -197,11 +196,6 @@ def _figure(run: Run, name: str, path: Path) -> str:
         caption += " Plotted before the last change of history.csv."
     part = figure_part(_heading(name), file_data(path), caption, path.suffix == ".mp4")
     return f'<h2 id="{name}">{html.escape(_heading(name))}</h2>\n{part}'
-
-
-def _is_aligned(run: Run) -> bool:
-    """Return whether times on the page differ from those of the run; the note then precedes all times."""
-    return run.time_reference.shift != 0.0
 
 
 def _times(run: Run) -> str:

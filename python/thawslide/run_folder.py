@@ -19,7 +19,7 @@ from thawslide.run_facts import Ending, ending_of, read_facts
 from thawslide.snapshot import Snapshot, snapshot_time
 from thawslide.targets import Band, Target, read_targets
 from thawslide.text_files import finite_number, is_file, read_table
-from thawslide.time_reference import TimeReference, time_reference_of
+from thawslide.time_reference import shifted_targets
 
 if TYPE_CHECKING:
     from thawslide.geopackage import Feature
@@ -117,16 +117,6 @@ class Run:
         """The history: columns of history.csv by name; an incomplete last row is skipped with a warning."""
         return read_history(self.folder / "history.csv", self.warnings)
 
-    @cached_property
-    def time_reference(self) -> TimeReference:
-        """The time reference of all figures."""
-        return time_reference_of(self)
-
-    @property
-    def shown_time(self) -> Numbers:
-        """The time [s] of each row of the history as figures show it."""
-        return self.history["time_s"] + self.time_reference.shift
-
     @property
     def has_band_columns(self) -> bool:
         """Whether the run has band columns; figures of the band are then area-weighted means over the base."""
@@ -186,9 +176,9 @@ class Run:
 
     @cached_property
     def targets(self) -> list[Target]:
-        """The reported values; empty if the case names none."""
+        """The reported values, at times of the run (`shifted_targets`); empty if the case names none."""
         path = self._report_file("targets")
-        return read_targets(path) if path else []
+        return shifted_targets(self, read_targets(path)) if path else []
 
     @cached_property
     def force_record(self) -> ForceRecord | None:
@@ -273,21 +263,17 @@ class Run:
         reason = (
             _ENDING_WORDS[self.ending][0] if not self.is_complete else "not at rest" if self.is_moving_at_end else ""
         )
-        return f"{self._shown(self.last_time)} s{f' ({reason})' if reason else ''}"
+        return f"{integer_text(self.last_time)} s{f' ({reason})' if reason else ''}"
 
     @property
     def end_note(self) -> str:
         """A sentence for figures of a run that is incomplete or not at rest; "" for others."""
-        last = self._shown(self.last_time)
+        last = integer_text(self.last_time)
         if self.is_complete:
             return f"The sliding mass is not at rest at {last} s. " if self.is_moving_at_end else ""
         end = self.section("time").get("end")
-        of_end = f" of {self._shown(end)} s" if end else ""
+        of_end = f" of {integer_text(end)} s" if end else ""
         return f"The run {_ENDING_WORDS[self.ending][1]} at {last} s{of_end}. "
-
-    def _shown(self, time: float) -> str:
-        """Return a time [s] of the run as figures show it."""
-        return integer_text(time + self.time_reference.shift)
 
     @cached_property
     def snapshot_files(self) -> list[Path]:

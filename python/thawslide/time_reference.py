@@ -1,8 +1,9 @@
-"""Times of the figures of a run: a target `start_velocity` aligns them with reported times."""
+"""Times of reported values: a target `start_velocity` shifts them to the time since the start of the run."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,35 +15,21 @@ if TYPE_CHECKING:
     from thawslide.run_folder import Run
 
 
-@dataclass(frozen=True)
-class TimeReference:
-    """Common time reference of all figures: shift [s] from the time since the start of the run, and words for it."""
+def shifted_targets(run: Run, targets: Sequence[Target]) -> list[Target]:
+    """Return reported values with times [s] since the start of the run.
 
-    shift: float
-    words: str
-
-    @property
-    def label(self) -> str:
-        """The label of a time axis."""
-        return f"time (s), {self.words}"
-
-
-def time_reference_of(run: Run) -> TimeReference:
-    """Return the time reference of a target `start_velocity`, or that of the run if there is none or it is not reached.
-
-    With it, the mean velocity first attains the velocity of the target at the time of the target.
+    If there is a value `start_velocity`, all times are shifted so that its time is that at which the mean velocity of
+    the run first attains it. A run that never does shifts none.
     """
-    target = _reference_target(run)
-    start = float("nan") if target is None else time_of_speed(run, target.value)
-    if target is None or np.isnan(start):
-        return TimeReference(0.0, "0 at the start of the run")
-    return TimeReference(
-        target.time - start, f"mean velocity {exact_text(target.value)} m/s at {exact_text(target.time)} s"
-    )
+    reference = _reference_of(targets)
+    start = float("nan") if reference is None else time_of_speed(run, reference.value)
+    if reference is None or np.isnan(start):
+        return list(targets)
+    return [replace(target, time=target.time + (start - reference.time)) for target in targets]
 
 
-def _reference_target(run: Run) -> Target | None:
-    return next((one for one in run.targets if one.quantity == REFERENCE), None)
+def _reference_of(targets: Sequence[Target]) -> Target | None:
+    return next((one for one in targets if one.quantity == REFERENCE), None)
 
 
 def time_of_speed(run: Run, speed: float) -> float:
@@ -61,23 +48,20 @@ def time_of_speed(run: Run, speed: float) -> float:
 
 def has_time_reference(run: Run) -> bool:
     """Return whether reported values can be compared at their times; false if the run never attains the velocity."""
-    target = _reference_target(run)
-    return target is None or not np.isnan(time_of_speed(run, target.value))
+    reference = _reference_of(run.targets)
+    return reference is None or not np.isnan(time_of_speed(run, reference.value))
 
 
 def time_note(run: Run) -> str:
     """Return a sentence on the times of the page and its figures."""
-    target = _reference_target(run)
-    if target is None:
-        return (
-            "Times are measured from the start of the run. A row start_velocity (time and velocity) would align them."
-        )
-    start = f"{exact_text(target.value)} m/s at {exact_text(target.time)} s"
+    reference = _reference_of(run.targets)
+    clock = "Times are measured from the start of the run."
+    if reference is None:
+        return clock
+    speed = f"{exact_text(reference.value)} m/s"
     if not has_time_reference(run):
-        return (
-            f"Times are measured from the start of the run. It never attains {start}. No value is compared at its time."
-        )
+        return f"{clock} It never attains {speed}. No value is compared at its time."
     return (
-        "Times on this page and in its figures are aligned with the reported values: the mean velocity first attains "
-        f"{start}. The run starts at {number_text(float(run.shown_time[0]))} s."
+        f"{clock} Those of reported values are shifted: the mean velocity first attains {speed} at "
+        f"{number_text(reference.time)} s."
     )

@@ -172,7 +172,7 @@ def friction_figure(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure:
         panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label="wedge factor, finest cells")
         panel.fill_between(middle, 0.9 * wedge, 1.1 * wedge, color=BLACK, alpha=0.12, linewidth=0, label="within 10 %")
         panel.set_title(f"({letter}) {variant.words}", loc="left")
-        panel.set_xlabel("time (s), 0 at the start of the run")
+        panel.set_xlabel("time since the start (s)")
         panel.grid(True)
     panels[0].set_ylabel("apparent friction / friction coefficient")
     handles, labels = max((panel.get_legend_handles_labels() for panel in panels), key=lambda each: len(each[0]))

@@ -253,7 +253,7 @@ std::vector<Parameter<Report>> report_parameters() {
       parameter(&Report::times, {.key = "times",
                                  .unit = "s",
                                  .range = at_least(0),
-                                 .text = "times of the snapshot figures, from the time reference of report.targets; "
+                                 .text = "times of the snapshot figures since the start of the run; "
                                          "[]: at 0, 20, ..., 100 % of the final mean displacement"}),
       parameter(
           &Report::targets,

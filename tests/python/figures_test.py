@@ -20,11 +20,11 @@ from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, norm
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.moments import chosen_snapshots
 from thawslide.figures.snapshots import Zone, velocity
+from thawslide.figures.style import TIME_LABEL
 from thawslide.figures.window import fit
 from thawslide.number_text import prefixed
 from thawslide.time_reference import time_of_speed
 
-UNALIGNED = "time (s), 0 at the start of the run"
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
 
 
@@ -129,7 +129,7 @@ def test_strips_have_heights_and_exaggeration_and_the_overview_the_range_of_each
         times = (right - left) / width / ((high - low) / height)
         assert texts(axes) == [f"vertical exaggeration {times:.2g}×"]
     overview = titled(figure, "whole profile")
-    title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
+    title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s"
     assert overview.get_title(loc="left") == title
     (bars,) = [axes for axes in figure.axes if "range of each panel" in axes.get_xlabel()]
     assert bars.get_xlabel().startswith("distance (m)")
@@ -208,7 +208,7 @@ def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None
     ):
         np.testing.assert_array_equal(line(axes, label), expected)
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("speed (m/s)", "distance (m)")
-    assert (speed.get_xlabel(), distance.get_xlabel()) == (UNALIGNED, UNALIGNED)
+    assert (speed.get_xlabel(), distance.get_xlabel()) == (TIME_LABEL, TIME_LABEL)
     figure = FIGURES["motion"].plot(Run(make_run(name="bare", targets=False)))
     labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
     assert len(labels) == 5

@@ -80,7 +80,7 @@ def test_curves_of_equal_forces_coincide(folder: Path) -> None:
         assert np.abs(difference).max() < 0.005 * values.max(), "linear between rows one second apart"
         assert np.abs(values).max() > 20.0, "GN"
     assert figure.axes[0].get_ylabel() == "force (GN)"
-    assert figure.axes[1].get_xlabel() == "time (s), 0 at the start of the run"
+    assert figure.axes[1].get_xlabel() == "time since the start (s)"
     assert figure.axes[1].get_title(loc="left").endswith("(record: azimuth 30°)")
     marks = [text.get_text() for text in figure.axes[0].texts]
     found = compared(run)

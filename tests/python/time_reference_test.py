@@ -1,4 +1,4 @@
-"""Common time reference of all figures of a run: a target start_velocity, or the start of the run."""
+"""One clock for all figures: time 0 is the start of the run, and start_velocity shifts reported values to it."""
 
 import re
 from pathlib import Path
@@ -6,18 +6,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from band_columns_test import column_history
-from conftest import MakeRun, edit, write_history
+from conftest import MakeRun, write_history
 from matplotlib.figure import Figure
 
 from thawslide import Run
 from thawslide.figures import FIGURES
+from thawslide.figures.style import TIME_LABEL
 from thawslide.key_numbers import key_numbers
 from thawslide.targets import read_targets
 
 ROOT = Path(__file__).resolve().parents[2]
-ALIGNED = "time (s), mean velocity 8 m/s at 40 s"
 OVER_TIME = ("motion", "force", "band", "energy")
-SHIFT = 40.0 - 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
+START = 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
 
 
 @pytest.fixture
@@ -31,47 +31,46 @@ def labels_of_time(figure: Figure) -> set[str]:
 
 
 @pytest.mark.parametrize("name", OVER_TIME)
-def test_all_curves_have_aligned_times(folder: Path, name: str) -> None:
+def test_curves_have_the_times_of_the_run(folder: Path, name: str) -> None:
     run = Run(folder)
     figure = FIGURES[name].plot(run)
-    assert labels_of_time(figure) == {ALIGNED}
+    assert labels_of_time(figure) == {TIME_LABEL}
     curves = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == run.history.rows]
     assert curves
     for line in curves:
-        np.testing.assert_allclose(line.get_xdata(), run.history["time_s"] + SHIFT, atol=2e-3)
+        np.testing.assert_array_equal(line.get_xdata(), run.history["time_s"])
 
 
-def test_reported_values_have_their_own_times(folder: Path) -> None:
-    speed = FIGURES["motion"].plot(Run(folder)).axes[0]
-    (marks,) = [line for line in speed.lines if str(line.get_label()).startswith("reported")]
-    np.testing.assert_array_equal(marks.get_data(), [[42.0], [9.0]])
-    (curve,) = [line for line in speed.lines if line.get_label() == "mean (mass-weighted)"]
-    assert np.interp(40.0, *curve.get_data()) == pytest.approx(8.0, abs=0.01)
-
-
-def test_snapshots_have_aligned_times(folder: Path) -> None:
-    edit(folder / "case.toml", "times = [0.0, 4.0, 7.4]", "times = [0.0, 41.0, 44.4]")
+def test_reported_values_are_shifted_to_the_times_of_the_run(folder: Path) -> None:
     run = Run(folder)
-    titles = [axes.get_title(loc="left") for axes in FIGURES["velocity"].plot(run).axes]
-    assert any(title.endswith("; time: mean velocity 8 m/s at 40 s") for title in titles)
+    assert [target.time for target in run.targets] == pytest.approx([START, START + 2.0], abs=2e-3)
+    speed = FIGURES["motion"].plot(run).axes[0]
+    (marks,) = [line for line in speed.lines if str(line.get_label()).startswith("reported")]
+    np.testing.assert_allclose(marks.get_data(), [[START + 2.0], [9.0]], atol=2e-3)
+    (curve,) = [line for line in speed.lines if line.get_label() == "mean (mass-weighted)"]
+    assert np.interp(run.targets[0].time, *curve.get_data()) == pytest.approx(8.0, abs=0.01)
+
+
+def test_snapshots_are_those_of_the_times_of_the_run(folder: Path) -> None:
+    titles = [axes.get_title(loc="left") for axes in FIGURES["velocity"].plot(Run(folder)).axes]
     found = [float(match[1]) for title in titles if (match := re.match(r"\(.\) t = ([\d.]+) s", title))]
-    assert found == pytest.approx([SHIFT, SHIFT + 4.0, SHIFT + 7.0], abs=0.05)
+    assert found == [0.0, 4.0, 7.0]
 
 
-def test_page_and_figures_of_band_columns_have_aligned_times(folder: Path) -> None:
+def test_page_and_figures_of_band_columns_have_the_times_of_the_run(folder: Path) -> None:
     (peak,) = [row for row in key_numbers(Run(folder)) if row.words == "Peak mean velocity"]
-    assert float(peak.remark.split()[1]) == pytest.approx(5.0 + SHIFT, abs=0.06)
+    assert float(peak.remark.split()[1]) == pytest.approx(5.0, abs=0.06)
     write_history(folder / "history.csv", column_history())
     run = Run(folder)
     for name in ("band", "water"):
-        assert labels_of_time(FIGURES[name].plot(run)) == {run.time_reference.label} == {ALIGNED}
+        assert labels_of_time(FIGURES[name].plot(run)) == {TIME_LABEL}
 
 
-def test_times_begin_at_the_start_without_a_target_or_its_velocity(make_run: MakeRun) -> None:
+def test_reported_values_keep_their_times_without_a_start_velocity_that_is_attained(make_run: MakeRun) -> None:
     for value in ("mean_velocity,42,9", "start_velocity,40,99"):
         run = Run(make_run(name=value[:5], targets=f"quantity,time_s,value,unit\n{value},m/s\n"))
-        np.testing.assert_array_equal(run.shown_time, run.history["time_s"])
-        assert labels_of_time(FIGURES["motion"].plot(run)) == {"time (s), 0 at the start of the run"}
+        assert run.targets[0].time == float(value.split(",")[1])
+        assert labels_of_time(FIGURES["motion"].plot(run)) == {TIME_LABEL}
 
 
 TARGETS = sorted((ROOT / "cases").glob("**/*targets*.csv"))

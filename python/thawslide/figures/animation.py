@@ -23,7 +23,7 @@ from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import DEPTH_AVERAGED_SPEED, columns_on, where_thick
-from thawslide.figures.style import BLUE, RED, common_style, disable_formulas, time_axis, time_line
+from thawslide.figures.style import BLUE, RED, TIME_LABEL, common_style, disable_formulas, time_axis, time_line
 from thawslide.maps import Map
 from thawslide.run_folder import Run
 
@@ -108,7 +108,7 @@ class _Image:
         # The thickness is shown as well if the map of speeds does not become smaller.
         self.paintings = (DEPTH_AVERAGED_SPEED, THICKNESS) if site.scene.aspect < _SLIM else (DEPTH_AVERAGED_SPEED,)
         legend = "Dashed: release. Brown: previously covered area."
-        note = f"{run.end_note}{legend} Time: {run.time_reference.words}. {site.scene.note()}"
+        note = f"{run.end_note}{legend} {site.scene.note()}"
         title = f"{run.title}: {' and '.join(painting.words for painting in self.paintings)}"
         count = len(self.paintings)
         self.page = page = MapPage(title, site.scene, count, note=note, foot=_FOOT, bar=0.72, narrowest=WIDTH)
@@ -118,8 +118,8 @@ class _Image:
         self.traces = [trace for trace, _ in panels]
         self.time_title = page.figure.axes[0].set_title("", loc="left", size=10)
         course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
-        time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
-        time_axis(course, run.shown_time, run.time_reference.label)
+        time_line(course, run.history["time_s"], run.history["mean_velocity_m_s"], color=BLUE)
+        time_axis(course, run.history["time_s"], TIME_LABEL)
         course.set_ylim(bottom=0.0)
         course.set_title("mean velocity (m/s)", loc="left", size=8, pad=3)
         self.marker = course.axvline(0.0, color=RED, linewidth=1.2)
@@ -172,7 +172,7 @@ class _Image:
             trace.set_data(np.ma.masked_invalid(np.where(self.covered, 1.0, np.nan)))
             field = columns.speed if painting is DEPTH_AVERAGED_SPEED else columns.thickness
             slide.set_data(np.ma.masked_invalid(where_thick(field, columns, self.site.threshold).values))
-        time = columns.time + self.site.run.time_reference.shift
+        time = columns.time
         self.time_title.set_text(f"t = {time:.1f} s")
         self.marker.set_xdata([time, time])
         self.canvas.restore_region(self.background)

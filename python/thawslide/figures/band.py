@@ -22,6 +22,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    TIME_LABEL,
     explain_empty,
     mark_level,
     note_below,
@@ -55,14 +56,14 @@ def band(run: Run) -> Figure:
 
 
 def _plot_particles(run: Run) -> Figure:
-    time = run.shown_time
+    time = run.history["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
     title_figure(figure, run.titled("shear band"))
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
     notes: list[str] = []
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
-        time_axis(axes, time, run.time_reference.label if axes in panels[2:] else "")
+        time_axis(axes, time, TIME_LABEL if axes in panels[2:] else "")
         if column not in run.history:
             explain_empty(axes, f"no column {column} in history.csv")
             continue
@@ -120,7 +121,7 @@ def _plot_columns(run: Run) -> Figure:
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
     warn(ratio, too_much_pressure(run.history["band_max_pressure_ratio"]))
     for axes in panels:
-        time_axis(axes, run.shown_time, run.time_reference.label if axes in panels[4:] else "")
+        time_axis(axes, run.history["time_s"], TIME_LABEL if axes in panels[4:] else "")
     title_panels(
         panels,
         (
@@ -145,7 +146,7 @@ def _plot_mean(
     if not np.isfinite(values).any():
         explain_empty(axes, "no contact")
         return []
-    time_line(axes, run.shown_time, values, color=colour, label="run", zorder=_ABOVE_AXIS)
+    time_line(axes, run.history["time_s"], values, color=colour, label="run", zorder=_ABOVE_AXIS)
     notes = plot_targets(axes, run, quantities, 1.0, colour)
     if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(loc="best")
@@ -171,7 +172,7 @@ def _plot_stresses(axes: Axes, run: Run) -> list[str]:
     axes.set_ylabel(f"stress ({unit})")
     # N is wide and the effective stress dashed: both are visible without pore pressure.
     for values, words, style in lines:
-        time_line(axes, run.shown_time, values / divisor, label=words, zorder=_ABOVE_AXIS, **style)
+        time_line(axes, run.history["time_s"], values / divisor, label=words, zorder=_ABOVE_AXIS, **style)
     notes = plot_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
     legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
@@ -182,7 +183,7 @@ def _plot_stresses(axes: Axes, run: Run) -> list[str]:
 
 def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
     """Plot mean, maximum and boiling temperature; return notes on reported values."""
-    time = run.shown_time
+    time = run.history["time_s"]
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
     time_line(axes, time, run.history["band_max_temperature_C"], color=PURPLE, label="maximum of all columns")

@@ -49,8 +49,7 @@ def base_along(run: Run) -> Figure:
     loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
     figure = Figure(figsize=(COLUMN_WIDTH, 0.9 + _ROW * len(shots)), layout="constrained")
-    title = run.titled("basal stresses and temperatures")
-    title_figure(figure, f"{title}; time: {run.time_reference.words}")
+    title_figure(figure, run.titled("basal stresses and temperatures"))
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)

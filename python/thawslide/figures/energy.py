@@ -16,6 +16,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    TIME_LABEL,
     YELLOW,
     explain_empty,
     note_below,
@@ -83,14 +84,14 @@ def energy(run: Run) -> Figure:
     """Plot changes of (a) mechanical and (b) thermal terms since the start, (c) residuals on a logarithmic axis."""
     if not any(name in run.history for name in (*MECHANICAL, *THERMAL)):
         raise NotInRunError("history.csv: no columns of the energy budget.")
-    time = run.shown_time
+    time = run.history["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
     title_figure(figure, run.titled("energy budget"))
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
     zero = [*_plot_terms(mechanical, run, MECHANICAL), *_plot_terms(thermal, run, THERMAL | COLUMNS)]
     _plot_residuals(residual, run)
     for axes in (mechanical, thermal, residual):
-        time_axis(axes, time, run.time_reference.label if axes is residual else "")
+        time_axis(axes, time, TIME_LABEL if axes is residual else "")
     title_panels((mechanical, thermal, residual), ("mechanical energy budget", "thermal energy budget", "residual"))
     if zero:
         note_below(figure, f"Zero throughout: {', '.join(zero)}.")
@@ -106,7 +107,7 @@ def _plot_terms(axes: Axes, run: Run, terms: dict[str, tuple[str, str]]) -> list
     if changing:
         for name, values in changing.items():
             words, colour = terms[name]
-            time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
+            time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words)
         axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
@@ -122,7 +123,7 @@ def _plot_residuals(axes: Axes, run: Run) -> None:
         if values is None or not np.any(values > 0.0):
             continue
         shown = np.where(values > 0.0, values, np.nan)
-        time_line(axes, run.shown_time, shown, color=colour, label=column.split("_")[0])
+        time_line(axes, run.history["time_s"], shown, color=colour, label=column.split("_")[0])
         has_values = True
     if has_values:
         axes.set_yscale("log")

@@ -14,6 +14,7 @@ from thawslide.figures.style import (
     GREEN,
     ORANGE,
     RED,
+    TIME_LABEL,
     explain_empty,
     styled,
     time_axis,
@@ -49,7 +50,7 @@ def entrainment(run: Run) -> Figure:
     """Plot (a) entrained and loose mass, (b) work and heat of entrainment, (c) entrained depth along x."""
     if "entrained_mass_kg" not in run.history:
         raise NotInRunError("history.csv: no entrained mass (found no [bed] in the case).")
-    time = run.shown_time
+    time = run.history["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
     title_figure(figure, run.titled("entrained bed material"))
     mass, work, depth = figure.subplots(3, 1)
@@ -67,7 +68,7 @@ def entrainment(run: Run) -> Figure:
     time_line(work, time, run.history["entrained_heat_J"] / divisor, color=GREEN, label="heat in joined particles")
     work.set_ylabel(f"energy ({unit}{per})")
     for axes in (mass, work):
-        time_axis(axes, time, run.time_reference.label if axes is work else "")
+        time_axis(axes, time, TIME_LABEL if axes is work else "")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     _plot_depth(depth, run)
     title_panels(

@@ -17,6 +17,7 @@ from thawslide.figures.style import (
     ORANGE,
     PURPLE,
     RED,
+    TIME_LABEL,
     styled,
     time_axis,
     time_line,
@@ -72,7 +73,7 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
 @styled
 def force(run: Run) -> Figure:
     """Plot the force on the terrain minus the static weight, (a) magnitude, (b) components; (c) plastic strain."""
-    time = run.shown_time
+    time = run.history["time_s"]
     parts, magnitude = seismic_force(run)
     reported = reported_forces(run)
     comparable = [] if run.per_metre else reported
@@ -116,7 +117,7 @@ def force(run: Run) -> Figure:
     strain.set_ylabel("mean plastic strain (–)")
     strain.set_ylim(bottom=0.0)
     for axes in panels:
-        time_axis(axes, time, run.time_reference.label if axes is strain else "")
+        time_axis(axes, time, TIME_LABEL if axes is strain else "")
     title_panels(
         panels,
         (

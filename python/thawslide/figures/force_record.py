@@ -17,6 +17,7 @@ from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
     NOTE,
+    TIME_LABEL,
     styled,
     time_axis,
     title_figure,
@@ -80,7 +81,7 @@ def compared(run: Run, other: ForceRecord | None = None) -> Comparison:
     record_curves = Curves(of_record, up, projected(north, east, azimuth), reversal(of_record, up))
 
     # The first filter covers the run and gives the shift of times; the second covers the time of the record.
-    start = float(run.shown_time[0])
+    start = float(run.history["time_s"][0])
     preliminary = _curves(run, record, azimuth, start)
     is_aligned = preliminary.reversal is not None and record_curves.reversal is not None
     shift = (
@@ -108,7 +109,7 @@ def _curves(run: Run, record: ForceRecord, azimuth: float, start: float) -> Curv
     if absent:
         raise NotInRunError(f"history.csv: no column {absent[0]}.")
     parts, _ = seismic_force(run)
-    time = run.shown_time
+    time = run.history["time_s"]
     at = _times(start, float(time[-1]), record.band)
     passed = {axis: filtered(time, values, at, record.band) for axis, values in parts.items()}
     up = passed["xyz"[run.vertical]]
@@ -210,7 +211,7 @@ def force_record(run: Run) -> Figure:
     found = compared(run)
     record = run.force_record
     assert record is not None
-    start = float(run.shown_time[0])
+    start = float(run.history["time_s"][0])
     both = [found.run.up, found.run.along, found.record.up, found.record.along]
     divisor, unit = prefixed(np.concatenate(both), "N")
     alignment = f"time shifted by {_signed(found.shift)} s" if found.is_aligned else "times not aligned"
@@ -232,7 +233,7 @@ def force_record(run: Run) -> Figure:
         axes.axvline(start, color=BLUE, linewidth=0.8, linestyle=":")
         time_axis(axes, found.record.time)
         axes.set_ylabel(f"force ({unit})")
-    panels[-1].set_xlabel(run.time_reference.label)
+    panels[-1].set_xlabel(TIME_LABEL)
     _mark_reversals(panels[0], found, divisor)
     panels[0].legend(loc="upper right")
     title_panels(

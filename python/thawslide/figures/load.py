@@ -44,4 +44,4 @@ def load_on_band(run: Run) -> tuple[Numbers, Numbers]:
         squared = 1.0 / (1.0 + np.interp(shot.points[band, 0], run.terrain[0], slope) ** 2)
         load = overburden(run, shot)[band] * squared
         loads.append(np.average(load, weights=mass[band]) if mass[band].sum() > 0.0 else np.nan)
-    return run.times[chosen] + run.time_reference.shift, np.array(loads)
+    return run.times[chosen], np.array(loads)

@@ -80,7 +80,7 @@ def _plot(run: Run, kinds: Sequence[MapKind], words: str, bar: float) -> Figure:
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: no values in the maps {', '.join(kind.name for kind in kinds)}.")
     outline = f"Outline: {site.outline_words}."
-    note = f"{run.end_note}{outline} Time: {run.time_reference.words}. {site.scene.note()}"
+    note = f"{run.end_note}{outline} {site.scene.note()}"
     page = MapPage(run.titled(words), site.scene, len(fields), note=note, foot=_FOOT, bar=bar)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
@@ -107,8 +107,6 @@ def _covered_part(site: Site, kind: MapKind) -> Map:
     values = field.values
     if kind.is_thickness:
         values = np.where(values > site.threshold, values, np.nan)
-    elif kind.name == "arrival_time":
-        values = values + site.run.time_reference.shift
     elif kind.name == "elevation_change":
         values = np.where(np.abs(values) > 0.0, values, np.nan)
     elif kind.has_zero_base:

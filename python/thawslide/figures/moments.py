@@ -29,12 +29,12 @@ def moments(run: Run) -> list[float]:
 def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
     """Return the snapshots nearest to the report times of the case, or to `moments`, each once.
 
-    Report times are times of the figures. The last state of an incomplete run is added. Velocities are those of
+    The last state of an incomplete run is added. Velocities are those of
     displacement.
     """
     if not len(run.times):
         raise NotInRunError(f"{run.folder}: no snapshots. Set time.output_interval and repeat the run.")
-    wanted = [time - run.time_reference.shift for time in run.report_times] or moments(run)
+    wanted = run.report_times or moments(run)
     found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
     indices = sorted(found if run.is_complete else found | {len(run.times) - 1})[: len(LETTERS)]
     return [shown_snapshot(run, index, fields) for index in indices]
@@ -86,4 +86,4 @@ def window_words(run: Run, shots: Sequence[Snapshot]) -> str:
 
 def shown_time(run: Run, time: float) -> str:
     """Return a time [s] of the run as figures show it, without its unit."""
-    return exact_text(round(time + run.time_reference.shift, 1))
+    return exact_text(round(time, 1))

@@ -13,6 +13,7 @@ from thawslide.figures.style import (
     COLUMN_WIDTH,
     GREEN,
     RED,
+    TIME_LABEL,
     styled,
     time_axis,
     time_line,
@@ -35,7 +36,7 @@ def plot_targets(
 
     Return a note on values outside the time of the run, if there are any.
     """
-    begin, end = (float(run.shown_time[row]) for row in (0, -1))
+    begin, end = (float(run.history["time_s"][row]) for row in (0, -1))
     asked = [target for target in run.targets if target.quantity in quantities]
     found = [target for target in asked if begin <= target.time <= end and has_time_reference(run)]
     groups = list(dict.fromkeys((target.adjective, target.source) for target in found))
@@ -81,7 +82,7 @@ def motion(run: Run) -> Figure:
     Particles at rest vibrate without net motion. The maximum speed is therefore plotted until rest only.
     """
     history = run.history
-    time = run.shown_time
+    time = run.history["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
     title_figure(figure, run.titled("motion"))
     speed, distance = figure.subplots(1, 2)
@@ -126,7 +127,7 @@ def motion(run: Run) -> Figure:
     distance.set_ylabel(f"distance ({unit})")
 
     for axes in (speed, distance):
-        time_axis(axes, time, run.time_reference.label)
+        time_axis(axes, time, TIME_LABEL)
         axes.set_ylim(bottom=0.0)
         # Legends below the panels do not cover curves.
         axes.legend(loc="upper left", bbox_to_anchor=(-0.14, -0.2), handlelength=1.5)

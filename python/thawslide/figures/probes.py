@@ -17,6 +17,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    TIME_LABEL,
     styled,
     time_axis,
     time_line,
@@ -54,7 +55,7 @@ def probes(run: Run) -> Figure:
     columns = run.probes
     if columns is None:
         raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file. Specify [probe.NAME] in the case.")
-    time = columns["time_s"] + run.time_reference.shift
+    time = columns["time_s"]
     found = {
         quantity: {
             name.removesuffix(quantity.ending): values
@@ -88,7 +89,7 @@ def probes(run: Run) -> Figure:
         axes.set_ylim(None if low < 0.0 else 0.0, None if high > 0.0 else 1.0 if low == 0.0 else 0.0)
         axes.yaxis.set_major_formatter(lambda value, _: exact_text(value))
         axes.legend(loc="best")
-        time_axis(axes, time, run.time_reference.label)
+        time_axis(axes, time, TIME_LABEL)
     for axes in panels[len(found) :]:
         axes.remove()
     title_panels(panels[: len(found)], [quantity.words for quantity in found])

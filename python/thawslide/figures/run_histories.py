@@ -58,7 +58,7 @@ def run_histories(runs: Mapping[str, Run]) -> Figure:
             if column in run.history:
                 time_line(
                     axes,
-                    run.shown_time,
+                    run.history["time_s"],
                     run.history[column] / divisor,
                     color=_COLOURS[number % len(_COLOURS)],
                     linestyle=_DASHES[number % len(_DASHES)],

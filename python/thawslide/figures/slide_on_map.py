@@ -90,7 +90,7 @@ def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     norm, extend = normalization(values, painting)
     painter = ScalarMappable(norm, colour_map(painting.colours))
     lines = f"Dashed: release. Cells below {site.threshold:g} m are not shown."
-    note = f"{run.end_note}{lines} Time: {run.time_reference.words}. {site.scene.note()}"
+    note = f"{run.end_note}{lines} {site.scene.note()}"
     title = f"{run.title}: {painting.words}"
     page = MapPage(title, site.scene, len(fields), note=note, foot=_FOOT)
     corner = quiet_corner(site.reached, site.scene.box)

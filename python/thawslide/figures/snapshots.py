@@ -347,7 +347,7 @@ def _plot_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
     axes.tick_params(labelbottom=False)
     states = f"grey: {time_text(run, shots[0])}, red: {time_text(run, shots[-1])}" if len(shots) > 1 else ""
     axes.set_title(
-        "; ".join(filter(None, (f"whole profile, {window.note()}", states, f"time: {run.time_reference.words}"))),
+        "; ".join(filter(None, (f"whole profile, {window.note()}", states))),
         loc="left",
         color=NOTE,
     )

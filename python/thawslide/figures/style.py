@@ -134,6 +134,9 @@ def time_line(axes: Axes, time: Numbers, values: ArrayLike, **style: Any) -> Non
     )
 
 
+TIME_LABEL = "time since the start (s)"
+
+
 def time_axis(axes: Axes, time: Numbers, label: str = "") -> None:
     """Set the time axis to the run's span and label it."""
     start, end = float(time[0]), float(time[-1])

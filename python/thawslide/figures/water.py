@@ -16,6 +16,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    TIME_LABEL,
     explain_empty,
     styled,
     time_axis,
@@ -59,7 +60,7 @@ def _plot_terms(
     for number, (name, (words, colour)) in enumerate(terms.items()):
         # Later lines are dashed, because they can coincide with earlier ones.
         style = {"color": colour, "linestyle": (0, (4, 2)) if number and terms is CONTENT else "-", "label": words}
-        time_line(axes, run.shown_time, run.history[name] / divisor, **style)
+        time_line(axes, run.history["time_s"], run.history[name] / divisor, **style)
     axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
     axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -70,7 +71,7 @@ def water(run: Run) -> Figure:
     """Plot (a) content and gain of columns, (b) losses, (c) openings and gas in pores, (d) the residual."""
     if not run.has_band_columns:
         raise NotInRunError("history.csv: no water budget (found no band columns).")
-    time = run.shown_time
+    time = run.history["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
     title_figure(figure, run.titled("water budget of the band"))
     panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
@@ -86,7 +87,7 @@ def water(run: Run) -> Figure:
     else:
         explain_empty(residual, "residual is zero")
     for axes in panels:
-        time_axis(axes, time, run.time_reference.label if axes is residual else "")
+        time_axis(axes, time, TIME_LABEL if axes is residual else "")
     title_panels(
         panels,
         ("water content and gain", "losses", "openings along the base (P = N) and gas in pores", "residual"),

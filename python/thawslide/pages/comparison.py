@@ -131,9 +131,6 @@ def _notes(runs: Mapping[str, Run]) -> list[str]:
     notes = [f"{name}: {note}" for name, run in runs.items() if (note := ending_note(run))]
     if len({run.dimension for run in runs.values()}) > 1:
         notes.append("2D and 3D runs: areas and volumes are comparable only if the 2D case has a width.")
-    if len({run.time_reference.words for run in runs.values()}) > 1:
-        clocks = "; ".join(f"{name}: {run.time_reference.words}" for name, run in runs.items())
-        notes.append(f"The runs have different time references. {clocks}.")
     return notes
 
 

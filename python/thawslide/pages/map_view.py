@@ -15,6 +15,7 @@ from thawslide.figures.map_panel import SHADES
 from thawslide.figures.moments import shown_snapshot, shown_time
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import cell_of, where_thick
+from thawslide.figures.style import TIME_LABEL
 from thawslide.maps import Grid, Map
 from thawslide.number_text import exact_text
 from thawslide.pages.markup import data_address
@@ -46,7 +47,7 @@ def map_view(run: Run) -> View:
     parts: dict[str, Any] = {
         "kind": "map",
         "times": times,
-        "timeWords": run.time_reference.label,
+        "timeWords": TIME_LABEL,
         "fields": fields_with_values([*fields, *_static_fields(run, site)], packing),
         "grid": {"x": grid.x0, "y": grid.y0, "dx": grid.cell_x, "dy": grid.cell_y, "columns": grid.columns},
         "elevation": packing.add(site.ground.at(east, north)),
@@ -99,8 +100,6 @@ def _static_fields(run: Run, site: Site) -> list[Field]:
         values = site.maps[name].cropped(site.scene.box).thinned(MOST_CELLS, "maximum").values
         if has_zero_base:
             values = np.where(values > (site.threshold if name == "max_thickness" else 0.0), values, np.nan)
-        else:
-            values = values + run.time_reference.shift
         fields.append(Field(words, unit, colours, has_zero_base, is_static=True, values=[values]))
     return fields
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from thawslide.figures.colours import PLASTIC_STRAIN, PORE_PRESSURE, SPEED, TEMPERATURE, Painting, painted_values
 from thawslide.figures.moments import shown_snapshot, shown_time
+from thawslide.figures.style import TIME_LABEL
 from thawslide.number_text import exact_text
 from thawslide.pages.packing import Packing
 from thawslide.pages.view import MOST_SNAPSHOTS, Field, View, fields_with_values
@@ -72,7 +73,7 @@ def section_view(run: Run) -> View:
     parts = {
         "kind": "section",
         "times": times,
-        "timeWords": run.time_reference.label,
+        "timeWords": TIME_LABEL,
         "axes": ["distance along x", "height normal to x"] if run.gravity_tilt else ["distance", "elevation"],
         "fields": fields_with_values([*fields, *bases], packing),
         "points": points,
