@@ -178,9 +178,8 @@ def _areas(run: Run) -> list[KeyNumber]:
     texts: tuple[tuple[str, str, Callable[[float], str], str], ...] = (
         ("Affected area", "affected_area_m2", area_text, f"horizontal, cells ever thicker than {least}"),
         (f"{what} volume{when}", "covered_volume_m3", volume_text, f"cells thicker than {least}"),
-        (f"{what} area{when}", "covered_area_m2", area_text, "horizontal, of the same cells"),
-        ("Inundated area", "inundated_area_m2", area_text, f"map cells ever thicker than {thick}"),
-        (f"Area of the thick deposit{when}", "deposit_area_m2", area_text, f"map cells thicker than {thick}"),
+        (f"{what} area{when}", "deposit_area_m2", area_text, f"horizontal, map cells thicker than {thick}"),
+        ("Inundated area", "inundated_area_m2", area_text, f"horizontal, map cells ever thicker than {thick}"),
     )
     for words, key, text, remark in texts:
         value = run.facts.get(key)

@@ -79,7 +79,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         "mean source thickness", LENGTHS, is_compared=False
     ),  # reports rarely state the area
     "deposit_volume": Quantity("deposit volume", VOLUMES, fact="covered_volume_m3"),
-    "deposit_area": Quantity("deposit area", AREAS, fact="covered_area_m2"),
+    "deposit_area": Quantity("deposit area", AREAS, fact="deposit_area_m2"),
     "travel_distance": Quantity("travel distance", LENGTHS, fact="travel_distance_m"),
     "drop_height": Quantity("drop height", LENGTHS, low=float("-inf"), fact="drop_height_m"),
     "angle_of_reach": Quantity("reach angle", ANGLES, low=-90.0, high=90.0, fact="reach_angle_degrees"),

@@ -58,7 +58,7 @@ def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slo
     assert 20.0 < rest["simulated_time_s"] < 35.0
     assert rest["simulated_time_s"] == pytest.approx(rest["rest_since_s"] + 2.0, abs=0.5)
     assert rest["message"].startswith("the slide is at rest: since t = ") and complete["message"] == ""
-    for key in ("travel_distance_m", "covered_area_m2", "affected_area_m2"):
+    for key in ("travel_distance_m", "covered_area_m2", "affected_area_m2", "deposit_area_m2", "inundated_area_m2"):
         assert rest[key] == pytest.approx(complete[key], rel=5e-3), key
     ends = [history(tmp_path / name)["mean_displacement_m"][-1] for name in ("rest", "complete")]
     assert ends[0] > 200.0 and ends[0] == pytest.approx(ends[1], abs=0.1)

@@ -30,7 +30,12 @@ QUANTITIES = {
     "peak_mean_velocity": Quantity("peak mean velocity", SPEEDS, "peak_mean_velocity_m_s", "of the whole mass"),
     "peak_speed": Quantity("peak speed", SPEEDS, "peak_speed_m_s", "at any place; depth-averaged in 3D"),
     "affected_area": Quantity("affected area", AREAS, "affected_area_m2", "horizontal, ever reached"),
-    "deposit_area": Quantity("deposit area", AREAS, "covered_area_m2", "horizontal, at the end"),
+    "deposit_area": Quantity(
+        "deposit area", AREAS, "deposit_area_m2", "horizontal, thicker than maps.area_thickness at the end"
+    ),
+    "inundated_area": Quantity(
+        "inundated area", AREAS, "inundated_area_m2", "horizontal, ever thicker than maps.area_thickness"
+    ),
     "deposit_volume": Quantity("deposit volume", VOLUMES, "covered_volume_m3", "at the end"),
 }
 THICKNESS = Quantity("thickness", LENGTHS, "", "vertical, in the map cell that contains the point")

@@ -114,6 +114,8 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   EXPECT_NEAR(maps.covered_volume(), 72.0, 1e-10);
   EXPECT_NEAR(maps.covered_cells(0.1).area(), 24.0, 1e-12) << "half of two columns of cells, and not all of them";
   EXPECT_NEAR(maps.affected_cells(0.1).area(), 24.0, 1e-12);
+  EXPECT_EQ(maps.covered_cells(3.5).area(), 0.0) << "no cell is as thick";
+  EXPECT_EQ(maps.affected_cells(3.5).area(), 0.0);
 }
 
 TEST(FlowMaps, SumsEqualThoseOfTheParticlesOnAnyGrid) {
