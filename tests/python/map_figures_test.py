@@ -184,7 +184,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
     assert any("flow thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
     page = page_of(map_run)
-    assert f'<p class="note">Warning: {warning}</p>' in page and "eposit" not in page
+    assert f'<p class="note">Warning: {warning}</p>' in page and "Deposit" not in page
 
 
 def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
