@@ -209,6 +209,8 @@ struct Mechanics {
   double settle_time = 0.0;       // s, InitialStress::settle
   double settle_damping = 0.0;    // 1/s, during settling
   double mass_damping = 0.0;      // 1/s, during the run
+  bool split_stretched = false;
+  double split_limit = 8.0;  // of the number of particles, relative to t = 0
 };
 
 // Parameters of basal laws by key; an absent one has its default.

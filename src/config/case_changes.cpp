@@ -18,7 +18,7 @@ namespace {
 
 // Keys that the step reads each time and that have no stored state. A name ending with a dot includes all keys of the
 // table.
-constexpr std::array<std::string_view, 19> changeable = {
+constexpr std::array<std::string_view, 20> changeable = {
     "time.",
     "checkpoint.",
     "guards.",
@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 19> changeable = {
     "mechanics.pic_fraction",
     "mechanics.fmpm_interval",
     "mechanics.fmpm_order",
+    "mechanics.split_limit",
     "band.column_step",
     "basal.friction_angle",
     "basal.friction_coefficient",

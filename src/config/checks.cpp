@@ -165,6 +165,13 @@ void check_switches(const Case& checked, Reading& reading) {
         "band.region is \"first_layer\", and the case has no terrain; there is no layer above it. Set "
         "band.region = \"all\", or give terrain.type.");
   }
+  if (reading.are_valid({"mechanics.split_stretched", "terrain.type"}) && checked.mechanics.split_stretched &&
+      !has_ground) {
+    reading.report_misfit(
+        {"mechanics.split_stretched", "terrain.type"},
+        "mechanics.split_stretched is true, and the case has no terrain; particles are stretched along it. Set "
+        "mechanics.split_stretched = false, or give terrain.type.");
+  }
   if (reading.are_valid({"mechanics.effective_stress", "pressure.enabled"}) && checked.mechanics.effective_stress &&
       !checked.pressure.enabled) {
     reading.report_misfit({"mechanics.effective_stress", "pressure.enabled"},

@@ -61,6 +61,15 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
                                            .unit = "1/s",
                                            .range = at_least(0),
                                            .text = "damping rate of velocities during the run; 0: no damping"}),
+      parameter(&Mechanics::split_stretched,
+                {.key = "split_stretched",
+                 .text = "true: particles stretched along the ground to more than 1.5 cells are split in two"}),
+      parameter(&Mechanics::split_limit,
+                {.key = "split_limit",
+                 .range = above(1),
+                 .text = "maximum number of particles after splitting, relative to the number at t = 0"})
+          .only_if("when mechanics.split_stretched is true", "split_stretched",
+                   [](const Case&, const Mechanics& mechanics) { return mechanics.split_stretched; }),
   };
 }
 

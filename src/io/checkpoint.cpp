@@ -14,7 +14,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
-constexpr std::uint64_t format_version = 11;
+constexpr std::uint64_t format_version = 12;
 
 class Writer {
  public:
@@ -233,7 +233,7 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
   const std::vector<std::size_t> record_bytes = row_sizes<Dim>();
-  // The number of particles may have changed, by removal or entrainment.
+  // The number of particles may have changed, by removal, entrainment or splitting.
   particles.resize(reader.number());
   scalars = reader.numbers();
   auto row_bytes = record_bytes.begin();

@@ -65,7 +65,7 @@ Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double
     }
   }
   for (const mpm::FieldBase* field : particles.fields.all()) {
-    if (field->info().in_snapshot()) {
+    if (field->is_in_snapshots()) {
       snapshot.fields.push_back(copy_field(*field, order));
     }
   }

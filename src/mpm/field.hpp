@@ -30,6 +30,7 @@ struct FieldInfo {
   FieldShape shape = FieldShape::scalar;
   const char* meaning = nullptr;  // for the reference of snapshots; null: the field is not in snapshots
   bool in_checkpoint = true;
+  bool snapshots_need_it_stored = false;  // snapshots omit the field if it is not stored; otherwise it is 0 there
 
   [[nodiscard]] bool in_snapshot() const { return meaning != nullptr; }
 };
@@ -60,6 +61,16 @@ class FieldBase {
   [[nodiscard]] virtual std::size_t number_bytes() const = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
+  // Selects whether the field is stored, from the next resize on. A field that is not stored must not be accessed;
+  // FieldList reads it as 0.
+  void keep(bool kept) { kept_ = kept; }
+  [[nodiscard]] bool is_kept() const { return kept_; }
+  [[nodiscard]] bool is_in_snapshots() const {
+    return info_.in_snapshot() && (kept_ || !info_.snapshots_need_it_stored);
+  }
+
+ protected:
+  bool kept_ = true;
 
  private:
   FieldInfo info_;
@@ -188,11 +199,6 @@ class Field final : public FieldBase {
     }
   }
 
-  // Selects whether the field is stored, from the next resize on. A field that is not stored must not be accessed;
-  // FieldList reads it as 0.
-  void keep(bool kept) { kept_ = kept; }
-  [[nodiscard]] bool is_kept() const { return kept_; }
-
   void resize(std::size_t particles) override {
     expect_capacity(particles);
     particles_ = particles;
@@ -265,7 +271,6 @@ class Field final : public FieldBase {
   }
 
   std::size_t particles_ = 0;
-  bool kept_ = true;
   AlignedVector<T> data_;
 };
 

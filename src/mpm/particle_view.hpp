@@ -27,6 +27,8 @@ struct ParticleView {
   Scalar seeped_water, flow_depth, thermal_scaling;
   Scalar contact_offset, slip;
   FieldView<std::int32_t, 1> in_band;
+  FieldView<Real, (Dim - 1) * (Dim - 1)> surface_stretch;
+  FieldView<std::int64_t, 1> parent_id;
   VectorField step_displacement;
   Scalar volume_strain, previous_temperature, secant_capacity, conduction_in_cell, seepage_in_cell, load_change;
   Scalar height_above_ground;
@@ -69,6 +71,8 @@ void for_fields_of(A& a, B& b, const Visit& visit) {
   visit(a.contact_offset, b.contact_offset);
   visit(a.slip, b.slip);
   visit(a.in_band, b.in_band);
+  visit(a.surface_stretch, b.surface_stretch);
+  visit(a.parent_id, b.parent_id);
   visit(a.step_displacement, b.step_displacement);
   visit(a.volume_strain, b.volume_strain);
   visit(a.previous_temperature, b.previous_temperature);

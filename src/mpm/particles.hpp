@@ -58,6 +58,12 @@ class Particles {
   Scalar contact_offset{fields, {"contact_offset", "m"}};    // distance from the ground at which it touches
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, "slip along the ground, accumulated"}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, "1 in the band, otherwise 0"}};
+  // Deformation F in the horizontal plane, at constant height above the ground; by columns (mpm/splitting.hpp)
+  Field<Real, (Dim - 1) * (Dim - 1)> surface_stretch{fields, {"surface_stretch", "1", FieldShape::matrix}};
+  Field<std::int64_t, 1> parent_id{
+      fields, {"parent_id", "1", FieldShape::scalar,
+               "with `split_stretched`: number of the particle from which it was split, otherwise its own number", true,
+               true}};
   // Within a step only: displacement and its volumetric strain, temperature before the step, secant capacity, changes
   // by conduction and seepage within the cell, and change of N.
   VectorField step_displacement{fields, {"step_displacement", "m", FieldShape::vector, nullptr, false}};

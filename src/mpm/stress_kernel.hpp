@@ -10,6 +10,7 @@
 #include "mpm/material.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
+#include "mpm/splitting.hpp"
 #include "physics/kinematics.hpp"
 #include "physics/mixture.hpp"
 #include "physics/tension_gap.hpp"
@@ -59,6 +60,9 @@ struct Deform {
     const auto velocity = seen.template read<Velocity, Dim>();
     const Matrix<Value, Dim> gradient = Value(dt) * gradient_of(velocity);
     auto increment = physics::strain_increment<Value, Dim>(gradient);
+    if (particles.surface_stretch.is_kept()) {
+      update_surface_stretch<Dim>(particles, at, gradient);
+    }
     if constexpr (Width::varies) {
       stretch_across(particles, at, velocity.value[0], increment);
     }

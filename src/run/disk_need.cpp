@@ -63,13 +63,13 @@ double bytes_of_all_maps(const sim::MapGrid& grid) {
 
 double bytes_of(const std::vector<double>& numbers) { return static_cast<double>(numbers.size() * sizeof(double)); }
 
-// Sets the size of checkpoints. The numbers of bed columns and particles are constant.
+// Sets the size of checkpoints. The number of bed columns is constant, and that of particles unless they are split.
 template <int Dim>
 void count_checkpoint(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
-  const double lasting = bytes_besides_points +
-                         static_cast<double>(simulation.particles().size()) *
-                             static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) +
-                         (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
+  const double of_particles =
+      static_cast<double>(simulation.particles().size()) * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>());
+  const double lasting =
+      bytes_besides_points + of_particles + (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
   // The first step creates columns: assume the maximum number, and the same size as in memory.
   const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(simulation.parameters(), simulation.site());
   const double columns = sim::memory_need<Dim>(simulation.parameters(), simulation.site(), bodies).columns;
@@ -77,7 +77,8 @@ void count_checkpoint(const sim::Simulation<Dim>& simulation, const sim::FlowMap
   const double most_of_maps = maps == nullptr ? 0.0 : bytes_of_all_maps(maps->map_grid());
   need.checkpoints = generations;
   need.checkpoint_at_start = lasting + columns / sim::usual_spread + of_maps;
-  need.checkpoint = lasting + columns + std::min(sim::usual_spread * of_maps, most_of_maps);
+  need.checkpoint = lasting + of_particles * (sim::splitting_factor(simulation.parameters()) - 1.0) + columns +
+                    std::min(sim::usual_spread * of_maps, most_of_maps);
 }
 
 }  // namespace
@@ -86,7 +87,8 @@ template <int Dim>
 DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, double steps) {
   const config::Case& parameters = simulation.parameters();
   const config::Time& time = parameters.time;
-  const auto particles = static_cast<double>(simulation.particles().size());
+  const double particles =
+      static_cast<double>(simulation.particles().size()) * sim::splitting_factor(simulation.parameters());
   DiskNeed need;
   need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
   need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_besides_points;

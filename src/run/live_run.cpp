@@ -33,7 +33,7 @@ class LiveRunOf final : public LiveRun {
         records_(*simulation_, simulation_->site()),
         history_schedule_(history_schedule(parameters.time, 0.0, 0.0)),
         snapshot_schedule_(snapshot_schedule(parameters.time, 0.0, 0.0)),
-        warnings_(simulation_->removed()) {
+        warnings_(*simulation_) {
     add_setup_warnings(*simulation_, sim::body_figures(*simulation_), warnings);
     if (simulation_->needs_settling()) {
       observer.line("settling under gravity for {:g} s", parameters.mechanics.settle_time);
@@ -119,7 +119,7 @@ class LiveRunOf final : public LiveRun {
                 lanes,
                 field->is_integer(),
                 field->number_bytes(),
-                simulation_->bed() != nullptr};
+                simulation_->bed() != nullptr || simulation_->model().splits_stretched};
       }
     }
     std::vector<std::string> names;

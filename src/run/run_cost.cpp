@@ -7,6 +7,7 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "sim/memory_need.hpp"
 
 namespace thawslide::run {
 
@@ -18,7 +19,10 @@ constexpr int enough_steps = 200;
 // Cost of a run over that of its number of first steps. A slide that spreads touches more nodes and columns, and output
 // is written. Measured on whole runs: 1.2 to 2.3 (plane, Lamplugh, entrainment), and with band columns 3.0 to 3.3
 // (slope of the Alps, Lamplugh).
-double spreading_factor(const config::Case& parameters) { return config::has_band_columns(parameters) ? 3.1 : 1.7; }
+double spreading_factor(const config::Case& parameters) {
+  const double of_splitting = std::min(sim::usual_cost_of_splitting, sim::splitting_factor(parameters));
+  return of_splitting * (config::has_band_columns(parameters) ? 3.1 : 1.7);
+}
 
 // Calls step() for up to `enough_seconds` of a clock; returns the number of calls.
 template <class Step, class Clock>

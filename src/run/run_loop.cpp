@@ -98,7 +98,7 @@ class Loop {
         checkpoints_(simulation.parameters().checkpoint.interval > 0.0 ? simulation.parameters().checkpoint.interval
                                                                        : times_.end,
                      simulation.time(), simulation.last_step(), times_.end),
-        warnings_(simulation.removed()),
+        warnings_(simulation),
         most_threads_(thread_count()),
         threads_(most_threads_, 0.0) {
     output_.start_clock();

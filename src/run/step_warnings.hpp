@@ -24,8 +24,11 @@ class BoilingWatch {
 // All warnings during a run, as lines.
 class StepWarnings {
  public:
-  // before: particles removed before this part of the run.
-  explicit StepWarnings(const sim::Removed& before) : has_reported_removal_(before.by_guards() > 0) {}
+  // before: state before this part of the run.
+  template <int Dim>
+  explicit StepWarnings(const sim::Simulation<Dim>& before)
+      : has_reported_removal_(before.removed().by_guards() > 0),
+        has_reported_splitting_(!before.split_warning().empty()) {}
 
   // New warnings after a step.
   template <int Dim>
@@ -34,6 +37,13 @@ class StepWarnings {
     if (!has_reported_removal_ && simulation.removed().by_guards() > 0) {
       has_reported_removal_ = true;
       found.push_back(warning_of_removal(simulation.time(), simulation.removed()));
+    }
+    if (!has_reported_splitting_) {
+      const std::string warning = simulation.split_warning();
+      has_reported_splitting_ = !warning.empty();
+      if (has_reported_splitting_) {
+        found.push_back(warning);
+      }
     }
     if (!has_reported_energy_) {
       const std::string warning = simulation.energy_warning();
@@ -55,7 +65,7 @@ class StepWarnings {
   static std::string warning_of_removal(double time, const sim::Removed& removed);
 
   BoilingWatch boiling_;
-  bool has_reported_removal_, has_reported_energy_ = false;
+  bool has_reported_removal_, has_reported_splitting_, has_reported_energy_ = false;
 };
 
 }  // namespace thawslide::run

@@ -59,6 +59,12 @@ std::string parts_of(const MemoryNeed& need) {
   return text;
 }
 
+// Addition to the number of particles in messages.
+std::string text_of_splitting(const config::Case& parameters) {
+  const double factor = splitting_factor(parameters);
+  return factor > 1.0 ? fmt::format(", and up to {:g} times as many by mechanics.split_stretched", factor) : "";
+}
+
 // Refuses a case that no cell size can make fit, because its cell-independent memory is too large. The message names
 // the largest contribution.
 [[noreturn]] void refuse_whatever_the_cell(const config::Case& parameters, const BodiesAtStart& bodies,
@@ -66,10 +72,10 @@ std::string parts_of(const MemoryNeed& need) {
   const double fixed = bytes_of_program + need.maps + need.ground;
   if (need.total() > 2.0 * fixed) {
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell larger; the rest, {} GB, needs "
+        "{}: grid.cell is {} m, which makes {} particles{}: {}. Make grid.cell larger; the rest, {} GB, needs "
         "more memory, or a higher limit of it, whatever the cell.",
-        config::location_of(parameters, "grid.cell"), parameters.grid.cell, rounded_text(bodies.particles), amounts,
-        rounded_text(fixed / gigabyte)));
+        config::location_of(parameters, "grid.cell"), parameters.grid.cell, rounded_text(bodies.particles),
+        text_of_splitting(parameters), amounts, rounded_text(fixed / gigabyte)));
   }
   if (bytes_of_program >= std::max(need.maps, need.ground)) {
     throw UserError(fmt::format("{}: {}. The program alone takes {} GB: give it more memory, or a higher limit.",
@@ -86,6 +92,11 @@ std::string parts_of(const MemoryNeed& need) {
 }
 
 }  // namespace
+
+double splitting_factor(const config::Case& parameters) {
+  const config::Mechanics& mechanics = parameters.mechanics;
+  return mechanics.split_stretched ? std::min(usual_splitting, mechanics.split_limit) : 1.0;
+}
 
 template <int Dim>
 BodiesAtStart bodies_at_start(const config::Case& parameters, const config::Site& site) {
@@ -115,7 +126,7 @@ MemoryNeed memory_of_particles(double particles) {
 
 template <int Dim>
 MemoryNeed memory_need(const config::Case& parameters, const config::Site& site, const BodiesAtStart& bodies) {
-  MemoryNeed need = memory_of_particles<Dim>(bodies.particles);
+  MemoryNeed need = memory_of_particles<Dim>(bodies.particles * splitting_factor(parameters));
   if (config::has_band_columns(parameters)) {
     const double segments = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
     need.columns = segments * sizeof(band::BasalSegment<Dim>);
@@ -182,10 +193,10 @@ const config::Case& require_memory(const config::Case& parameters, const config:
     refuse_whatever_the_cell(parameters, bodies, need, amounts);
   }
   throw UserError(fmt::format(
-      "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
+      "{}: grid.cell is {} m, which makes {} particles{}: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
       "smaller.",
-      config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), amounts,
-      config::fitting_cell_from(smallest, cell, lengths)));
+      config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), text_of_splitting(parameters),
+      amounts, config::fitting_cell_from(smallest, cell, lengths)));
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                      \

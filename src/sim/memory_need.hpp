@@ -29,6 +29,10 @@ inline constexpr double bytes_of_program = 60e6, bytes_of_map_files = 100e6;
 // Ratio of the area that a moving slide covers, now and before, to its initial area: an allowance.
 inline constexpr double usual_spread = 5.0;
 
+// Number of particles relative to t = 0 if stretched ones are split (mechanics.split_stretched), an allowance: 1.3 to
+// 3.4 times in whole runs (plane, Lamplugh). Also the cost of such a run over one that splits none: 1.1 to 1.5 times.
+inline constexpr double usual_splitting = 4.0, usual_cost_of_splitting = 1.5;
+
 // Limit of index arithmetic: an affine velocity has nine numbers per particle.
 inline constexpr double most_particles = 2.3e8;
 
@@ -49,6 +53,9 @@ struct BodiesAtStart {
   double particles = 0.0;  // approximate number
   double area = 0.0;       // horizontal [m2], per metre of width in 2D
 };
+
+// Number of particles of a run relative to t = 0: 1 unless it splits them.
+[[nodiscard]] double splitting_factor(const config::Case& parameters);
 
 template <int Dim>
 [[nodiscard]] BodiesAtStart bodies_at_start(const config::Case& parameters, const config::Site& site);

@@ -325,6 +325,7 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   if (model.between_bodies.has_held) {
     model.constraints.first_held_layer = model.between_bodies.layers;
   }
+  model.splits_stretched = parameters.mechanics.enabled && parameters.mechanics.split_stretched;
   model.contact.law = make_basal_law(parameters);
   model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;

@@ -30,6 +30,7 @@ struct Model {
   std::shared_ptr<const terrain::Substrates> substrates;        // null if the ground is of one kind
   std::optional<terrain::Polyline> profile;                     // ground, if it is a line over x
   std::vector<Real> free_gaps;                          // by material: 1: gaps are stress-free, 0: they carry stress
+  bool splits_stretched = false;                        // particles, along the ground (mpm/splitting.hpp)
   Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0 if there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is the entrained bed material
   std::vector<double> release_times;                    // by body [s]; empty: all bodies move from the start

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
+#include "sim/splitting.hpp"
 #include "terrain/ground_on_grid.hpp"
 #include "terrain/near_ground.hpp"
 
@@ -45,6 +46,7 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
   release_device();
   const std::size_t first = particles_.append(joining.size());
   fill_new(joining, first, next_id_, model_, particles_);
+  set_unsplit(particles_, first);
   band::set_heat_content(model_.band, particles_, first);
   for (std::size_t p = first; p < particles_.size(); ++p) {
     particles_.mass(p) = particles_.volume(p) * physics::mixture_density(model_.motion.phases, particles_.porosity(p),

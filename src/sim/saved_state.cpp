@@ -12,6 +12,7 @@ std::vector<double> Simulation<Dim>::scalars() const {
                               last_step_,
                               static_cast<double>(step_number_),
                               static_cast<double>(next_id_),
+                              static_cast<double>(split_count_),
                               column_time_,
                               fixed_step_clock_.step,
                               fixed_step_clock_.from_time,
@@ -36,6 +37,7 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   last_step_ = state.next_finite();
   step_number_ = state.whole(largest_whole);
   next_id_ = state.whole(largest_whole);
+  split_count_ = state.whole(next_id_);
   column_time_ = state.next_finite();
   fixed_step_clock_.step = state.next_finite();
   fixed_step_clock_.from_time = state.next_finite();

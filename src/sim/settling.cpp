@@ -26,6 +26,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
   model_.release_times.clear();  // all bodies settle together
+  model_.splits_stretched = false;
   model_.contact.base_is_fixed = true;
   model_.contact.band_columns = false;
   band_columns_.reset();

@@ -19,6 +19,7 @@
 #include "sim/filter_times.hpp"
 #include "sim/grid_of_device.hpp"
 #include "sim/memory_need.hpp"
+#include "sim/splitting.hpp"
 #include "sim/terrain_at_columns.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/ground_on_grid.hpp"
@@ -98,6 +99,7 @@ void Simulation<Dim>::post_step() {
   if (bed_in_reach() != nullptr) {
     stopwatch_.time("entrain_bed", [&] { entrain_bed(); });
   }
+  split_stretched();
 }
 
 template <int Dim>
@@ -350,6 +352,7 @@ void Simulation<Dim>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
+  keep_split_fields(model_.splits_stretched, particles_);
   particles_.height_above_ground.keep(model_.ground != nullptr);
   particles_.ground_slope.keep(model_.ground != nullptr);
   particles_.linear_slope.keep(model_.ground != nullptr);
@@ -361,6 +364,8 @@ void Simulation<Dim>::seed() {
   locate_particles();  // the limits of a time step depend on the slope below them
   particles_at_start_ = particles_.size();
   next_id_ = static_cast<std::int64_t>(particles_at_start_);
+  split_count_ = 0;
+  set_unsplit(particles_);
   band::set_heat_content(model_.band, particles_);
   grid_ = make_grid(parameters_, model_);
 }

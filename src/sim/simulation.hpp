@@ -1,6 +1,7 @@
 // Simulation in memory: particles, grid and the step of Section 2.3.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -58,6 +59,16 @@ class SlideLeft : public RunError {
   using RunError::RunError;
 };
 
+// Particle that is split in two, and half of the way between its halves.
+template <int Dim>
+struct Split {
+  std::size_t particle = 0;  // in memory
+  std::array<Vector<Real, Dim>, 2> positions;
+  Vector<Real, Dim - 1> direction;  // along which it is halved
+
+  [[nodiscard]] Vector<Real, Dim> half_way() const { return Real(0.5) * (positions[1] - positions[0]); }
+};
+
 using band::BodySums;
 
 template <int Dim>
@@ -112,6 +123,10 @@ class Simulation {
   // Warning of slow unexplained energy growth by more than guards.energy_growth; empty if there is none.
   [[nodiscard]] std::string energy_warning() const;
   [[nodiscard]] const Removed& removed() const { return removed_; }
+  // Warning that mechanics.split_limit prevents further splitting; empty if it does not.
+  [[nodiscard]] std::string split_warning() const;
+  // Number of particles that splitting has added.
+  [[nodiscard]] std::int64_t split_count() const { return split_count_; }
 
   // True if particles are outdated and no step can continue from them.
   [[nodiscard]] bool device_has_failed() const { return device_has_failed_; }
@@ -234,6 +249,13 @@ class Simulation {
   const terrain::Bed<Dim>* bed_to_meet();
   void collect_bed();
   void entrain_bed();
+  // Splits stretched particles (splitting.cpp).
+  void split_stretched();
+  void split(const std::vector<Split<Dim>>& due);
+  [[nodiscard]] std::int64_t most_splits() const;
+  [[nodiscard]] std::vector<Split<Dim>> splits_due() const;
+  [[nodiscard]] std::optional<Split<Dim>> split_of(std::size_t particle) const;
+  [[nodiscard]] Real energy_gained(const Split<Dim>& split) const;
 
   void seed();
   // Initializes everything that follows from positions and stress at t = 0.
@@ -308,7 +330,7 @@ class Simulation {
   Stopwatch stopwatch_;
   double time_ = 0.0, last_step_ = 0.0, current_band_thickness_ = -1.0,
          column_time_ = 0.0;  // since the last step of the band columns
-  std::int64_t step_number_ = 0, next_id_ = 0;
+  std::int64_t step_number_ = 0, next_id_ = 0, split_count_ = 0;
   // Clock of fixed steps of one size: that size, and the time and step number when the first of them began.
   struct FixedStepClock {
     double step = 0.0, from_time = 0.0;

@@ -227,12 +227,13 @@ TEST(CaseChanges, ReportTheLineThatIsNotToml) {
 }
 
 TEST(CaseChanges, AreLimitedToKeysThatEveryStepReads) {
-  EXPECT_NO_THROW(
-      require_changeable({"time.end=3", "time.stepping=adaptive", "checkpoint.interval=2", "grid.leaving=remove",
-                          "basal.friction_angle=12", "basal.turbulent_friction=400", "basal.heat_fraction=0.5",
-                          "mechanics.fmpm_interval=0.1", "substrate.ice.friction_coefficient=0.1"}));
+  EXPECT_NO_THROW(require_changeable({"time.end=3", "time.stepping=adaptive", "checkpoint.interval=2",
+                                      "grid.leaving=remove", "basal.friction_angle=12", "basal.turbulent_friction=400",
+                                      "basal.heat_fraction=0.5", "mechanics.fmpm_interval=0.1",
+                                      "mechanics.split_limit=16", "substrate.ice.friction_coefficient=0.1"}));
   for (const char* set : {"grid.cell=3", "timeless.end=3", "time=3", "material.rock.cohesion=3", "band.thickness=0.1",
-                          "grid.leavings=stop", "substrate.ice.x_min=3", "substrate.basal.cohesion_law=bonds"}) {
+                          "grid.leavings=stop", "substrate.ice.x_min=3", "substrate.basal.cohesion_law=bonds",
+                          "mechanics.split_stretched=true"}) {
     EXPECT_THROW(require_changeable({"time.end=3", set}), UserError) << set;
   }
 }

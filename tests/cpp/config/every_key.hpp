@@ -72,7 +72,8 @@ inline const std::string rest_in_3d = one_key_per_line(R"(
 [material.rock] law = "elastic" | youngs_modulus = 400000000.0 | poisson_ratio = 0.25 | softening_slip = 0.75
 [probe.gauge] point = [12.5, -3.0]
 [body.block] material = "rock" | min = [0.0, 0.0, 1.0] | max = [40.0, 5.0, 20.0] | velocity = [1.5, -0.5, 0.25]
-[mechanics] transfer = "fmpm" | fmpm_order = 3 | fmpm_interval = 0.5 | slope_shear = true
+[mechanics] transfer = "fmpm" | fmpm_order = 3 | fmpm_interval = 0.5 | slope_shear = true |
+  split_stretched = true | split_limit = 4.5
 [basal] friction = "voellmy" | friction_coefficient = 0.125 | turbulent_friction = 250.0
 [band] model = "columns" | thickness = 0.5 | growth = "slip" | growth_per_slip = 0.125 | mixing_slip = 250.0 |
   load_time = 1.5 | column_step = 0.125 | ground_temperature = -3.0

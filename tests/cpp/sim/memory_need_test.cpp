@@ -36,6 +36,13 @@ TEST(MemoryNeed, SumsItsParts) {
   EXPECT_EQ(need.columns + need.bed + need.maps + need.ground, 0.0);
   EXPECT_EQ(need.total(), 60e6 + 600.0 * 1431.0);
 
+  const auto of_split = [](const char* limit) {
+    return memory_need<2>(case_from_text(two_bodies, {"mechanics.split_stretched=true", limit}), {},
+                          bodies_at_start<2>(case_from_text(two_bodies), {}));
+  };
+  EXPECT_EQ(of_split("mechanics.split_limit=8").total(), 60e6 + 4.0 * 600.0 * 1431.0);
+  EXPECT_EQ(of_split("mechanics.split_limit=2").total(), 60e6 + 2.0 * 600.0 * 1431.0);
+
   const config::Case rich =
       case_from_text(two_bodies,
                      "band.model=columns; band.thickness=0.2; bed.law=momentum; bed.depth=1.0; bed.strength=1e3; "
