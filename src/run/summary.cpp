@@ -48,7 +48,7 @@ void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>
   observer.line(
       "{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}",
       count_text(static_cast<double>(at_start)),
-      at_end == at_start ? "" : fmt::format(", {} of them at the end", count_text(static_cast<double>(at_end))),
+      at_end == at_start ? "" : fmt::format(", {} at the end", count_text(static_cast<double>(at_end))),
       count_text(static_cast<double>(steps)), duration_text(wall), output.particle_steps() / wall / 1e6,
       thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
   const sim::HistoryRow row = output.history_row(simulation);

@@ -136,7 +136,7 @@ def test_a_run_ends_when_all_particles_have_left(thawslide: Program, slope: Slop
     assert reported and facts["status"] == "done"
     assert printed.splitlines()[-1] == facts["message"]
     work = re.search(
-        r"^([\d,]+) particles, ([\d,]+) of them at the end, [\d,]+ steps in .*: (\S+) million particle-steps per "
+        r"^([\d,]+) particles, ([\d,]+) at the end, [\d,]+ steps in .*: (\S+) million particle-steps per "
         r"second on 1 thread$",
         printed,
         re.MULTILINE,
