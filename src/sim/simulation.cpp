@@ -147,18 +147,15 @@ void Simulation<Dim>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
-// Nodes within reach of band columns take the state of the base from these. Only the other nodes need the particles,
-// and only if the laws depend on them.
+// Only nodes out of reach of band columns need the state of particles, and only if a law reads it.
 template <int Dim>
 void Simulation<Dim>::press_on_ground(bool reads_mass) {
   if (!model_.ground) {
     return;
   }
-  if (band_columns_ || !reads_mass) {
-    terrain::clearance_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
-  } else {
-    terrain::near_ground_to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
-  }
+  const auto to_grid =
+      band_columns_ || !reads_mass ? &terrain::clearance_to_grid<Dim> : &terrain::near_ground_to_grid<Dim>;
+  to_grid(grid_, *ground_, model_.motion, particles_, nodes_);
   if (band_columns_) {
     band_columns_->to_nodes(grid_, nodes_);
   }

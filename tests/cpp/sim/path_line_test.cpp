@@ -137,10 +137,11 @@ TEST(RunFigures, AngleOfReachIsTheSlopeFromTopToFront) {
 }
 
 TEST(RunFigures, AreReportedByNameAndUnit) {
-  const auto figures = named({1.0, 2.0, 7.0, 3.0, 4.0, 5.0, 6.0});
+  const auto figures = named({1.0, 2.0, 7.0, 8.0, 9.0, 3.0, 4.0, 5.0, 6.0});
   const std::vector<std::pair<std::string, double>> expected{
-      {"covered_volume_m3", 1.0}, {"covered_area_m2", 2.0}, {"affected_area_m2", 7.0},   {"front_distance_m", 3.0},
-      {"travel_distance_m", 4.0}, {"drop_height_m", 5.0},   {"reach_angle_degrees", 6.0}};
+      {"covered_volume_m3", 1.0}, {"covered_area_m2", 2.0},   {"affected_area_m2", 7.0},
+      {"deposit_area_m2", 8.0},   {"inundated_area_m2", 9.0}, {"front_distance_m", 3.0},
+      {"travel_distance_m", 4.0}, {"drop_height_m", 5.0},     {"reach_angle_degrees", 6.0}};
   EXPECT_EQ(figures, expected);
 }
 
