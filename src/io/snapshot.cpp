@@ -112,17 +112,16 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
 }
 
 template <int Dim>
-std::size_t snapshot_bytes_of_particle() {
-  const mpm::Particles<Dim> particles;
+std::size_t snapshot_bytes_of_particle(const mpm::Particles<Dim>& particles) {
   std::size_t numbers = 3 + 2;  // coordinates, and two numbers of the vertex
   for (const mpm::FieldBase* field : particles.fields.all()) {
-    numbers += field->info().in_snapshot() ? written_components(field->info().shape) : 0;
+    numbers += field->is_in_snapshots() ? written_components(field->info().shape) : 0;
   }
   return numbers * sizeof(double);
 }
 
-template std::size_t snapshot_bytes_of_particle<2>();
-template std::size_t snapshot_bytes_of_particle<3>();
+template std::size_t snapshot_bytes_of_particle<2>(const mpm::Particles<2>&);
+template std::size_t snapshot_bytes_of_particle<3>(const mpm::Particles<3>&);
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                \
   template std::vector<std::size_t> order_by_id<Dim>(const mpm::Particles<Dim>&); \

@@ -39,9 +39,9 @@ Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double
 // Bytes of the file; the same snapshot gives the same bytes.
 std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot);
 
-// Size of a particle in the file, which has a few kilobytes in addition [bytes].
+// Size of one of the particles in the file, which has a few kilobytes in addition [bytes].
 template <int Dim>
-std::size_t snapshot_bytes_of_particle();
+std::size_t snapshot_bytes_of_particle(const mpm::Particles<Dim>& particles);
 
 // Memory indices of the particles in order of id.
 template <int Dim>

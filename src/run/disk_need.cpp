@@ -91,7 +91,8 @@ DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* 
       static_cast<double>(simulation.particles().size()) * sim::splitting_factor(simulation.parameters());
   DiskNeed need;
   need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
-  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_besides_points;
+  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>(simulation.particles())) +
+                  bytes_besides_points;
   count_checkpoint(simulation, maps, need);
   need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps, false) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +
