@@ -1,4 +1,4 @@
-"""Members with initial noise over time, at times aligned with the reported values."""
+"""Members with initial noise over time, with the reported values shifted to it."""
 
 from __future__ import annotations
 

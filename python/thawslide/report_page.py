@@ -209,7 +209,7 @@ def _target_tables(run: Run) -> list[str]:
         rows = [
             (
                 t.words,
-                f"{exact_text(t.time)} s",
+                f"{exact_text(round(t.time, 1))} s",
                 quantity_text(t.in_its_unit(t.value), t.unit_words, _REPORTED_DIGITS),
                 found_for(run, t),
                 t.source,

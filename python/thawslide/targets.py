@@ -38,7 +38,7 @@ KINDS: Mapping[str, tuple[str, str]] = {
 }
 ABSOLUTE_ZERO = -273.15  # C
 FORCE = "max_seismic_force"
-REFERENCE = "start_velocity"  # the quantity whose time and value [m/s] align the times of the others
+REFERENCE = "start_velocity"  # the quantity whose time and value [m/s] shift the times of the others
 SOURCE_VOLUME = "source_volume"
 
 

@@ -142,7 +142,8 @@ def write_map_run(folder: Path, snapshots: int) -> None:
         "0.0,0.0,0.0,0.0,0.0,0.0,0.0\n5.0,6.0,20.0,360.0,-6480.0,18.0,5.0\n10.0,6.0,20.0,0.0,0.0,0.0,0.0\n"
     )
     write_facts(
-        folder, covered_volume_m3=28800.0, covered_area_m2=4900.0, deposit_area_m2=4800.0, affected_area_m2=16800.0, at_rest=True,
+        folder, covered_volume_m3=28800.0, covered_area_m2=4900.0, deposit_area_m2=4800.0,
+        affected_area_m2=16800.0, at_rest=True,
         rest_since_s=8.5, travel_distance_m=280.0, drop_height_m=112.0, reach_angle_degrees=21.8,
         crs="MGI / Austria Lambert",
     )  # fmt: skip

@@ -183,4 +183,4 @@ def test_reported_values_are_compared_at_times_of_the_run(make_run: MakeRun) -> 
     assert [found_for(run, target) for target in run.targets] == never
     assert "It never attains 60 m/s." in time_note(run)
     labels = [str(found.get_label()).replace("\n", " ") for found in FIGURES["motion"].plot(run).axes[1].lines]
-    assert "1 reported value of mean displacement not shown: no time reference" in labels
+    assert "1 reported value of mean displacement not shown: the run never attains start_velocity" in labels

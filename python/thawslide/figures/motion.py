@@ -59,7 +59,7 @@ def plot_targets(
         return []
     of_words = f" of{words}" if words else ""
     if not has_time_reference(run):
-        return [f"{_reported(len(asked))}{of_words} not shown: no time reference"]
+        return [f"{_reported(len(asked))}{of_words} not shown: the run never attains start_velocity"]
     early = sum(target.time < begin for target in asked)
     counts = {"before the start": early, "after the end": len(asked) - len(found) - early}
     return [", ".join(f"{_reported(count)}{of_words} {when} of the run" for when, count in counts.items() if count)]

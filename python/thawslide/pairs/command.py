@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import signal
 import subprocess
 import sys
 import tomllib
@@ -18,10 +19,11 @@ from thawslide.commands import print_line
 from thawslide.errors import ReportError
 from thawslide.maps import on_map
 from thawslide.number_text import exact_text
-from thawslide.pairs.output import write_pair
+from thawslide.pairs.output import JSON, PAGE, write_pair
 from thawslide.program import find_program
 from thawslide.run_folder import Run
 
+_MISTAKE, _FAILED, _BY_SIGNAL = 2, 3, 128  # exit codes of the program
 FACTORS = (2, 4, 1)  # cells over that of the case; the first run sets the map cell of all
 
 
@@ -29,20 +31,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code: that of the program if a run fails."""
     given = _parser().parse_args(arguments)
     try:
-        case = _values(given.case, given.sets)
+        whole = _core.case_of(
+            _core.read_case_files(str(Path(given.case).absolute())), [(each, str(Path.cwd())) for each in given.sets]
+        )
+        case = tomllib.loads(_core.resolved_toml(whole))
         cell, corner = float(case["grid"]["cell"]), _upper_corner(case["grid"])
         changes: dict[str, object] = {"grid.max": corner}
-        output = Path(given.output or Path("runs") / f"{Path(given.case).resolve().stem}-pair")
+        if corner != case["grid"]["max"]:
+            print_line(f"pair: grid.max is {toml_text(corner)} in all runs, a whole number of their largest cells")
+        output = Path(given.output or Path("runs") / f"{whole.name}-pair")
+        _prepare(output, given.overwrite)
         runs: dict[int, Run] = {}
         for factor in FACTORS:
             print_line(f"pair: cells of {exact_text(factor * cell)} m")
-            folder = output / ("h" if factor == 1 else f"{factor}h")
+            folder = _folder(output, factor)
             code = _run(given, {**changes, "grid.cell": factor * cell}, folder)
             if code == 0:
                 runs[factor] = run = Run(folder)
                 if on_map(run):
                     changes["maps.cell"] = run.maps["max_thickness"].grid.cell_x
-            elif factor != max(FACTORS):
+            elif factor != max(FACTORS) or code not in (_MISTAKE, _FAILED):
                 return code
             else:
                 print_line("note: without this run, no result is extrapolated.")
@@ -56,10 +64,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _values(file: str, sets: Sequence[str]) -> dict[str, Any]:
-    """Return the keys of the case with the changes of the command line."""
-    case = _core.case_of(_core.read_case_files(str(Path(file).absolute())), [(each, str(Path.cwd())) for each in sets])
-    return tomllib.loads(_core.resolved_toml(case))
+def _folder(output: Path, factor: int) -> Path:
+    return output / ("h" if factor == 1 else f"{factor}h")
+
+
+def _prepare(output: Path, overwrite: bool) -> None:
+    """Refuse existing runs unless they are to be replaced, and remove results of an earlier pair."""
+    for factor in FACTORS:
+        if not overwrite and (_folder(output, factor) / "run.json").exists():
+            raise ReportError(
+                f"{_folder(output, factor)}: has a run already. Add --overwrite, or select another --output."
+            )
+    for name in (PAGE, JSON):
+        (output / name).unlink(missing_ok=True)
 
 
 def _run(given: argparse.Namespace, changes: Mapping[str, object], folder: Path) -> int:
@@ -73,7 +90,14 @@ def _run(given: argparse.Namespace, changes: Mapping[str, object], folder: Path)
     words += ["--end", given.end] if given.end else []
     sets = [each for each in given.sets if each.partition("=")[0].strip() not in changes]
     sets += [f"{key}={toml_text(value)}" for key, value in changes.items()]
-    return subprocess.run([*words, *(word for each in sets for word in ("--set", each))], check=False).returncode
+    process = subprocess.Popen([*words, *(word for each in sets for word in ("--set", each))])
+    signal.signal(signal.SIGTERM, lambda *_: process.terminate())
+    while True:
+        try:
+            code = process.wait()
+            return code if code >= 0 else _BY_SIGNAL - code
+        except KeyboardInterrupt:  # the program has it too, and ends after its step, with a checkpoint
+            continue
 
 
 def _upper_corner(grid: Mapping[str, Any]) -> list[float]:

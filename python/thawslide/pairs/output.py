@@ -102,6 +102,8 @@ def _page(
 def _row(name: str, error: Error) -> list[str]:
     words, unit = _WORDS[name]
     values = ["-" if math.isnan(v) else number_text(v, 4) for v in (error.coarsest, error.coarse, error.value)]
+    if not math.isfinite(error.error):
+        return [f"{words} ({unit})", *values, "-", f"no: {error.reason}"]
     share = f" ({100.0 * error.error / abs(error.value):.1f} %)" if error.value else ""
     kind = "" if not error.reason else "differences: "
     limit = f"no: {error.reason}" if error.reason else f"{number_text(error.limit, 4)} (order {error.order:.1f})"
