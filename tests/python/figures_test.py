@@ -396,3 +396,15 @@ def test_time_of_speed_is_interpolated_between_rows(make_run: MakeRun) -> None:
     run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: 8 m/s at 3.0409 s
     assert time_of_speed(run, 8.0) == pytest.approx(10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0)), abs=2e-3)
     assert np.isnan(time_of_speed(run, 13.0))
+
+
+def test_runs_that_split_particles_show_the_velocities_of_the_file(make_run: MakeRun) -> None:
+    folder = make_run()
+    shown = chosen_snapshots(Run(folder))[1]["velocity"]
+    case = folder / "case.toml"
+    case.write_text(case.read_text() + "\n[mechanics]\nsplit_stretched = true\n")
+    run = Run(folder)
+    shot = chosen_snapshots(run)[1]
+    index = int(np.argmin(np.abs(run.times - shot.time)))
+    np.testing.assert_array_equal(shot["velocity"], run.snapshot(index)["velocity"])
+    assert not np.array_equal(shown, shot["velocity"]), "otherwise those of displacement"

@@ -51,10 +51,10 @@ def displacement_velocity(run: Run, index: int, shot: Snapshot) -> Numbers:
 
     The vibration of a body at rest contributes nothing. The velocity of the file is kept in the first snapshot, for a
     particle in no neighbouring snapshot, and in the last snapshot of a moving mass: the mean up to it would be that of
-    an earlier time.
+    an earlier time. Particles that are split change their places; a run that splits keeps all velocities of the file.
     """
     velocity = np.array(shot["velocity"], dtype=np.float64)
-    if index == 0 or "id" not in shot or (index == len(run.times) - 1 and not run.is_at_rest):
+    if _splits(run) or index == 0 or "id" not in shot or (index == len(run.times) - 1 and not run.is_at_rest):
         return velocity
     ends = []
     for neighbour in (index - 1, min(index + 1, len(run.times) - 1)):
@@ -69,9 +69,13 @@ def displacement_velocity(run: Run, index: int, shot: Snapshot) -> Numbers:
     return velocity
 
 
+def _splits(run: Run) -> bool:
+    return bool(run.section("mechanics").get("split_stretched", False))
+
+
 def window_words(run: Run, shots: Sequence[Snapshot]) -> str:
     """Return the averaging time of the velocities of snapshots in words, "" for a run of one snapshot."""
-    if len(run.times) < 2:
+    if len(run.times) < 2 or _splits(run):
         return ""
     first, last = run.times[0], run.times[-1]
     ends = (first,) if run.is_at_rest else (first, last)
