@@ -19,6 +19,10 @@ namespace thawslide::mpm {
 // smaller gaps, and deposits grow by 1 to 2 % (docs/theory/momentum.md).
 inline constexpr Real longest_in_cells = Real(1.5);
 
+// Volume, over the initial one, above which a particle is not split: tension has torn it, and its halves would keep on
+// opening. Their low density would shorten the steps.
+inline constexpr Real torn_volume = Real(1.5);
+
 template <int Dim>
 using SurfaceStretch = Matrix<Real, Dim - 1>;
 

@@ -60,7 +60,8 @@ std::optional<Split<Dim>> Simulation<Dim>::split_of(std::size_t particle) const 
   const auto body = static_cast<std::size_t>(particles_.body(particle));
   const Real half_size = model_.motion.sizes.half(body);
   const auto axis = mpm::longest_axis<Dim>(mpm::surface_stretch_of<Dim>(particles_, particle));
-  if (!mpm::is_too_long(axis.stretch, half_size)) {
+  const bool is_torn = particles_.volume(particle) > mpm::torn_volume * particles_.initial_volume(particle);
+  if (is_torn || !mpm::is_too_long(axis.stretch, half_size)) {
     return {};
   }
   Split<Dim> split{particle, {}, axis.direction};

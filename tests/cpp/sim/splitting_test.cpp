@@ -235,10 +235,13 @@ void extend(Simulation<3>& simulation, const Vector<double, 2>& axis, double rat
   }
 }
 
-TEST(Splitting, FollowsAUniformExtensionAlongAnObliqueAxis) {
-  constexpr double rate = 1.0, dt = 0.12, slope = 0.5;
-  const Vector<double, 2> axis(std::cos(0.6), std::sin(0.6));
-  Simulation<3> simulation(base_case(
+const Vector<double, 2> oblique(std::cos(0.6), std::sin(0.6));
+constexpr double slope = 0.5;
+
+// A box after a uniform extension along an axis: by 1.12 in each of the steps up to splitting.
+std::unique_ptr<Simulation<3>> extended_box(bool is_incompressible) {
+  constexpr double dt = 0.12;
+  auto extended = std::make_unique<Simulation<3>>(base_case(
       "box", fmt::format("case.gravity=0; case.gravity_tilt=0; time.step={}; terrain.type=plane; terrain.elevation=20; "
                          "terrain.slope={:.17g}; grid.cell=2; grid.min=[-60,-60,-40]; grid.max=[60,60,60]; "
                          "body.box.min=[-4,-4,22]; body.box.max=[4,4,26]; material.rock.law=elastic; "
@@ -247,15 +250,23 @@ TEST(Splitting, FollowsAUniformExtensionAlongAnObliqueAxis) {
                          "heat.enabled=false; pressure.enabled=false; guards.energy_growth=inf",
                          dt, std::atan(slope) * 180.0 / pi) +
                  splits));
-  const std::size_t at_start = simulation.particle_count();
-  double stretch = 1.0;
+  Simulation<3>& simulation = *extended;
   for (int k = 0; k < steps_to_split; ++k) {
-    extend(simulation, axis, rate, slope);
+    extend(simulation, oblique, 1.0, slope);
+    for (std::size_t p = 0; is_incompressible && p < simulation.particle_count(); ++p) {
+      simulation.particles().volume(p) = simulation.particles().initial_volume(p);
+    }
     simulation.step(dt);
-    stretch *= 1.0 + dt * rate;
   }
+  return extended;
+}
+
+TEST(Splitting, FollowsAUniformExtensionAlongAnObliqueAxis) {
+  const double stretch = std::pow(1.12, steps_to_split);
+  const auto simulation = extended_box(true);
+  const std::size_t at_start = 256;
   ASSERT_GT(stretch, 3.0);
-  const auto& particles = std::as_const(simulation).particles();
+  const auto& particles = std::as_const(*simulation).particles();
   ASSERT_EQ(particles.size(), 2 * at_start);
   const auto places = places_by_id<3>(particles);
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -263,10 +274,17 @@ TEST(Splitting, FollowsAUniformExtensionAlongAnObliqueAxis) {
     const Vector<double, 2> apart(particles.position(p, 0) - particles.position(kept, 0),
                                   particles.position(p, 1) - particles.position(kept, 1));
     // The length was 1 m at t = 0.
-    EXPECT_NEAR(std::abs(apart.dot(axis)), particles.parent_id(p) == particles.id(p) ? 0.0 : 0.5 * stretch, 1e-10);
-    EXPECT_NEAR(apart[0] * axis[1] - apart[1] * axis[0], 0.0, 1e-10);
+    EXPECT_NEAR(std::abs(apart.dot(oblique)), particles.parent_id(p) == particles.id(p) ? 0.0 : 0.5 * stretch, 1e-10);
+    EXPECT_NEAR(apart[0] * oblique[1] - apart[1] * oblique[0], 0.0, 1e-10);
     EXPECT_NEAR(particles.position(p, 2) - particles.position(kept, 2), -slope * apart[0], 1e-10);
   }
+}
+
+TEST(Splitting, LeavesOutWhatTensionHasTorn) {
+  const auto simulation = extended_box(false);
+  const auto& particles = std::as_const(*simulation).particles();
+  EXPECT_EQ(particles.size(), 256U);
+  EXPECT_GT(particles.volume(0), mpm::torn_volume * particles.initial_volume(0));
 }
 
 // Some particles are split in each of the checks, so that parents of the second one are halves of the first one.
