@@ -45,12 +45,11 @@ template <int Dim>
 void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                     double wall, const std::filesystem::path& folder, Observer& observer) {
   const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
-  observer.line(
-      "{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}",
-      count_text(static_cast<double>(at_start)),
-      at_end == at_start ? "" : fmt::format(", {} at the end", count_text(static_cast<double>(at_end))),
-      count_text(static_cast<double>(steps)), duration_text(wall), output.particle_steps() / wall / 1e6,
-      thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
+  observer.line("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}",
+                count_text(static_cast<double>(at_start)),
+                at_end == at_start ? "" : fmt::format(", {} at the end", count_text(static_cast<double>(at_end))),
+                count_text(static_cast<double>(steps)), duration_text(wall), output.particle_steps() / wall / 1e6,
+                thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
   const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
