@@ -68,11 +68,11 @@ gis::MapLayer affected_layer(const sim::FlowMaps& maps, const MapTexts& texts) {
 }
 
 gis::MapLayer deposit_layer(const sim::FlowMaps& maps, const MapTexts& texts) {
-  const gis::Polygons area = areas_of(maps.covered_cells(maps.arrival_thickness()));
+  const gis::Polygons area = areas_of(maps.covered_cells(texts.area_thickness));
   return layer_of("deposit_area", std::vector<gis::Polygons>{area},
                   {{"area_m2", std::vector{gis::area_of(area)}},
-                   {"volume_m3", std::vector{maps.covered_volume()}},
-                   {"threshold_m", std::vector{maps.arrival_thickness()}}},
+                   {"volume_m3", std::vector{maps.covered_volume(texts.area_thickness)}},
+                   {"threshold_m", std::vector{texts.area_thickness}}},
                   origin(texts, 1), fill_style(brown));
 }
 

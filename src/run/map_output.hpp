@@ -37,9 +37,10 @@ void write_ground_maps(const std::filesystem::path& folder, const sim::Simulatio
 
 // Attributes of the maps.
 struct MapTexts {
-  std::string run;    // name of its folder
-  std::string state;  // label of the last state (sim/end_state.hpp)
-  double time;        // of the last state [s]
+  std::string run;        // name of its folder
+  std::string state;      // label of the last state (sim/end_state.hpp)
+  double time;            // of the last state [s]
+  double area_thickness;  // maps.area_thickness [m]
 };
 
 // Writes the current maps and replaces earlier ones. Each file is replaced atomically.

@@ -264,7 +264,7 @@ void RunOutput<Dim>::write_maps(const Simulation& simulation) {
       own_.require();
       const std::string state = sim::when_text(sim::end_state(simulation, slide_left_));
       const MapTexts texts{(fs::absolute(folder_) / ".").lexically_normal().parent_path().filename().string(), state,
-                           simulation.time()};
+                           simulation.time(), simulation.parameters().maps.area_thickness};
       stopwatch_.time("write_maps", [&] { run::write_maps(folder_, records_, simulation.site(), fronts_, texts); });
     }
   }

@@ -332,10 +332,10 @@ Raster FlowMaps::raster(const MapKind& kind, MapExtent extent) const {
   return raster;
 }
 
-double FlowMaps::covered_volume() const {
+double FlowMaps::covered_volume(double least) const {
   double volume = 0.0;
   for_cells([&](int /*column*/, int /*row*/, const MapCell& cell) {
-    volume += cell.thickness > arrival_thickness_ ? cell.thickness * map_grid_.cell_area() : 0.0;
+    volume += cell.thickness > least ? cell.thickness * map_grid_.cell_area() : 0.0;
   });
   return volume;
 }

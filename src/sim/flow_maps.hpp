@@ -72,8 +72,8 @@ class FlowMaps {
 
   // One map. Extent over the slide: the smallest raster with every cell it ever covered, empty if there is none.
   [[nodiscard]] Raster raster(const MapKind& kind, MapExtent extent) const;
-  // Current volume of all cells thicker than the arrival thickness [m3].
-  [[nodiscard]] double covered_volume() const;
+  // Current volume of all cells thicker than `least` [m]; [m3].
+  [[nodiscard]] double covered_volume(double least) const;
   // Ground that the slide covers now, and that it ever covered, with more than `least` [m] (sim/covered_area.hpp).
   [[nodiscard]] CoveredCells covered_cells(double least) const;
   [[nodiscard]] CoveredCells affected_cells(double least) const;

@@ -234,7 +234,7 @@ std::optional<RunFigures> RunRecords<Dim>::figures(
   }
   const double arrival = maps_->arrival_thickness();
   const double least = simulation.parameters().maps.area_thickness;
-  RunFigures figures{maps_->covered_volume(),
+  RunFigures figures{maps_->covered_volume(arrival),
                      maps_->covered_cells(arrival).area(),
                      maps_->affected_cells(arrival).area(),
                      maps_->covered_cells(least).area(),

@@ -157,9 +157,9 @@ def test_a_release_at_rest_has_the_area_that_was_drawn(ran: Ran, tmp_path: Path,
     assert state == "at 0.01 s, not at rest"
     layers = {name: rows_of(run / "maps" / "results.gpkg", name) for name in ("deposit_area", "release_area")}
     ((deposit,), (release,)) = layers.values()
-    assert deposit["area_m2"] == pytest.approx(facts["covered_area_m2"], rel=1e-9)
-    assert deposit["volume_m3"] == pytest.approx(facts["covered_volume_m3"], rel=1e-9)
-    assert (deposit["threshold_m"], deposit["time_s"], deposit["run"]) == (0.1, 0.01, "run")
+    assert deposit["area_m2"] == pytest.approx(facts["deposit_area_m2"], rel=1e-9)
+    assert deposit["volume_m3"] == pytest.approx(8000.0 * THICKNESS, rel=0.01)
+    assert (deposit["threshold_m"], deposit["time_s"], deposit["run"]) == (0.5, 0.01, "run")
     assert release["area_m2"] == pytest.approx(8000.0, rel=1e-9), "the outline as drawn"
     assert release["volume_m3"] == pytest.approx(8000.0 * THICKNESS, rel=0.01)
     assert (release["body"], release["run"]) == ("slide", "run")

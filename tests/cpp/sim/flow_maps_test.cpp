@@ -111,7 +111,7 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   EXPECT_NEAR(maps.cell(4, 8).thickness, 3.0, 1e-12);
   EXPECT_NEAR(maps.cell(7, 11).thickness, 3.0 * 0.75 / 1.5, 1e-12);
   EXPECT_TRUE(std::isnan(maps.cell(8, 8).max_speed));
-  EXPECT_NEAR(maps.covered_volume(), 72.0, 1e-10);
+  EXPECT_NEAR(maps.covered_volume(maps.arrival_thickness()), 72.0, 1e-10);
   EXPECT_NEAR(maps.covered_cells(0.1).area(), 24.0, 1e-12) << "half of two columns of cells, and not all of them";
   EXPECT_NEAR(maps.affected_cells(0.1).area(), 24.0, 1e-12);
   EXPECT_EQ(maps.covered_cells(3.5).area(), 0.0) << "no cell is as thick";

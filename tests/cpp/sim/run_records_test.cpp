@@ -178,7 +178,7 @@ TEST(RunRecords, KeepPeakValuesAfterTheSlideHasLeft) {
   RunRecords<3> records(simulation, site);
   records.start(simulation);
   records.slide_left();
-  EXPECT_EQ(records.maps()->covered_volume(), 0.0);
+  EXPECT_EQ(records.maps()->covered_volume(0.1), 0.0);
   EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_thickness_m"), 0.0);
   EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_speed_m_s"), 0.0);
   const MapGrid& grid = records.maps()->map_grid();
