@@ -16,7 +16,7 @@ namespace {
 constexpr double longest = 1.5;  // longest side of a segment along an axis, in cells
 // largest area of two merged segments, in areas of a cell's face times the relative section width
 constexpr double largest_joined = 1.0;
-// largest distance of two merged segments along each axis, in sizes of a lattice part
+// largest distance of two merged segments along each axis, in cells
 constexpr double joining_reach = 0.5;
 
 }  // namespace
@@ -255,39 +255,30 @@ void BasalSegments<Dim>::split_long_segments(Real most, const Ground& ground) {
   }
 }
 
-// Shear splits segments repeatedly, and they accumulate where the flow converges. Two segments in one part of the
-// lattice merge if they are nearer than half of its size along each axis and together no larger than a cell. The result
+// Shear splits segments repeatedly, and they accumulate where the flow converges. Two segments in one cell of
+// the lattice merge if they are nearer than half a cell along each axis and together no larger than a cell. The result
 // is a square at their common centre. Segments that were created next to each other and move together keep a larger
-// distance. The segments of one part are visited in order, and each merges into the smallest one before it.
+// distance. The segments of one cell are visited in order, and each merges into the smallest one before it.
 template <int Dim>
 void BasalSegments<Dim>::merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
   struct Entry {
-    LatticePart at;
+    Lattice cell;
     std::size_t segment;
   };
   std::vector<Entry> entries(segments_.size());
-  parallel_for(segments_.size(), [&](std::size_t p) {
-    const Lattice cell = lattice_cell(grid, segments_[p].position), parts = parts_on(segments_[p].normal);
-    entries[p] = {{cell, lattice_part(grid, segments_[p].position, cell, parts), parts}, p};
-  });
-  const auto key = [](const Entry& entry) { return std::tie(entry.at.cell, entry.at.part); };
+  parallel_for(segments_.size(), [&](std::size_t p) { entries[p] = {lattice_cell(grid, segments_[p].position), p}; });
   std::sort(entries.begin(), entries.end(),
-            [&](const Entry& a, const Entry& b) { return key(a) != key(b) ? key(a) < key(b) : a.segment < b.segment; });
+            [](const Entry& a, const Entry& b) { return std::tie(a.cell, a.segment) < std::tie(b.cell, b.segment); });
   std::vector<std::uint8_t> joined(segments_.size(), 0);
   std::size_t smallest = 0;
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const Entry& entry = entries[k];
     Segment &segment = segments_[entry.segment], &small = segments_[smallest];
-    const bool is_first = k == 0 || key(entry) != key(entries[k - 1]);
+    const bool is_first = k == 0 || entry.cell != entries[k - 1].cell;
     const auto is_near = [&] {
-      Real furthest = 0;  // in sizes of the part
-      for (std::size_t a = 0; a + 1 < Dim; ++a) {
-        const auto axis = static_cast<int>(a);
-        furthest = std::max(
-            furthest, std::abs(small.position[axis] - segment.position[axis]) * static_cast<Real>(entry.at.parts[a]));
-      }
-      return furthest < Real(joining_reach) * grid.cell();
+      const Vector<Real, Dim> apart = small.position - segment.position;
+      return apart.template head<Dim - 1>().cwiseAbs().maxCoeff() < Real(joining_reach) * grid.cell();
     };
     if (!is_first && small.area + segment.area <= ground.width(small.position.template head<Dim - 1>()) * largest &&
         is_near()) {

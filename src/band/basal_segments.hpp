@@ -111,29 +111,10 @@ class BasalSegments {
   using Stencil = BaseStencil<Dim>;
 
   using Lattice = std::array<int, Dim - 1>;  // cell of the horizontal lattice on which segments are created
-  // Part of a lattice cell. On steep ground, a cell is divided along each axis, because a segment reaches only the
-  // nodes of its stencil.
-  struct LatticePart {
-    Lattice cell, part, parts;                             // parts: number along each axis
-    auto operator<=>(const LatticePart&) const = default;  // NOLINT(modernize-use-nullptr): false positive
-  };
-  // Footpoint of a node in contact: its point on the ground, the lattice cell of this point, and the number of parts of
-  // a cell on ground of this slope.
-  struct Footpoint {
-    Lattice cell, parts;
-    Vector<Real, Dim> position;
-  };
-  // Number of parts of a lattice cell along each axis, on ground with this normal.
-  [[nodiscard]] static Lattice parts_on(const Vector<Real, Dim>& normal);
-  [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position,
-                                     const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) const;
-  [[nodiscard]] std::vector<Footpoint> contact_footpoints(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                                          const NormalAtNode& node_normal,
-                                                          const mpm::Nodes<Dim>& nodes) const;
-  [[nodiscard]] std::vector<LatticePart> parts_below(const mpm::SparseGrid<Dim>& grid,
-                                                     std::vector<Footpoint> footpoints) const;
-  void leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<LatticePart>& parts) const;
+  [[nodiscard]] std::vector<Lattice> cells_in_contact(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
+                                                      const mpm::Nodes<Dim>& nodes) const;
+  void leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<Lattice>& cells) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const;
   void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
                        Real thickness, mpm::Nodes<Dim>& nodes);

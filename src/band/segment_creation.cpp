@@ -11,13 +11,6 @@ namespace thawslide::band {
 using mpm::BaseState;
 using mpm::Contact;
 
-namespace {
-
-constexpr double highest_part = 1.5;  // height of a part of a lattice cell on steep ground, in cells
-constexpr double most_parts = 64.0;   // parts of such a cell, on nearly vertical ground
-
-}  // namespace
-
 template <int Dim>
 typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>& grid,
                                                                       const Vector<Real, Dim>& position) const {
@@ -26,28 +19,6 @@ typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_cell(const mpm:
     cell[a] = static_cast<int>(std::floor(position[static_cast<int>(a)] * grid.inverse_cell()));
   }
   return cell;
-}
-
-template <int Dim>
-typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::parts_on(const Vector<Real, Dim>& normal) {
-  Lattice parts;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const Real gradient = std::abs(normal[static_cast<int>(a)] / normal[Dim - 1]);
-    parts[a] = static_cast<int>(std::clamp(std::ceil(gradient / Real(highest_part)), Real(1), Real(most_parts)));
-  }
-  return parts;
-}
-
-template <int Dim>
-typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_part(const mpm::SparseGrid<Dim>& grid,
-                                                                      const Vector<Real, Dim>& position,
-                                                                      const Lattice& cell, const Lattice& parts) const {
-  Lattice part;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const Real within = position[static_cast<int>(a)] * grid.inverse_cell() - static_cast<Real>(cell[a]);
-    part[a] = std::clamp(static_cast<int>(within * static_cast<Real>(parts[a])), 0, parts[a] - 1);
-  }
-  return part;
 }
 
 template <int Dim>
@@ -62,16 +33,15 @@ bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>& grid, con
   });
 }
 
-// Footpoints of nodes in contact, in the order of blocks and nodes: nodes out of reach of all segments, and nodes with
-// a contact area large enough to need a segment there.
+// Lattice cells of nodes in contact, sorted and unique: of nodes out of reach of all segments, and of nodes with a
+// contact area large enough to need a segment there.
 template <int Dim>
-std::vector<typename BasalSegments<Dim>::Footpoint> BasalSegments<Dim>::contact_footpoints(
-    const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
-    const mpm::Nodes<Dim>& nodes) const {
+std::vector<typename BasalSegments<Dim>::Lattice> BasalSegments<Dim>::cells_in_contact(
+    const mpm::SparseGrid<Dim>& grid, const Ground& ground, const mpm::Nodes<Dim>& nodes) const {
   constexpr std::size_t of_a_task = 32;  // blocks
   const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
   const std::size_t blocks = grid.blocks().size();
-  std::vector<std::vector<Footpoint>> of_task((blocks + of_a_task - 1) / of_a_task);
+  std::vector<std::vector<Lattice>> of_task((blocks + of_a_task - 1) / of_a_task);
   parallel_for(of_task.size(), 1, [&](std::size_t task) {
     for (std::size_t b = task * of_a_task; b < std::min(blocks, (task + 1) * of_a_task); ++b) {
       for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
@@ -82,43 +52,26 @@ std::vector<typename BasalSegments<Dim>::Footpoint> BasalSegments<Dim>::contact_
         const Vector<Real, Dim> foot = mpm::node_position(grid, b, k);
         const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
         if (unseen || contact[Contact::area] > least_area * ground.width(foot.template head<Dim - 1>())) {
-          of_task[task].push_back({lattice_cell(grid, foot), parts_on(*node_normal(b, k)), foot});
+          of_task[task].push_back(lattice_cell(grid, foot));
         }
       }
     }
   });
-  std::vector<Footpoint> footpoints;
-  for (const std::vector<Footpoint>& some : of_task) {
-    footpoints.insert(footpoints.end(), some.begin(), some.end());
+  std::vector<Lattice> cells;
+  for (const std::vector<Lattice>& some : of_task) {
+    cells.insert(cells.end(), some.begin(), some.end());
   }
-  return footpoints;
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
 }
 
-// Parts of lattice cells that contain footpoints, sorted and unique. The first footpoint in a cell determines the
-// number of its parts.
+// Removes the cells that a segment covers. A segment covers a cell if their centres differ by less than three quarters
+// of a cell along each axis.
 template <int Dim>
-std::vector<typename BasalSegments<Dim>::LatticePart> BasalSegments<Dim>::parts_below(
-    const mpm::SparseGrid<Dim>& grid, std::vector<Footpoint> footpoints) const {
-  std::stable_sort(footpoints.begin(), footpoints.end(),
-                   [](const Footpoint& a, const Footpoint& b) { return a.cell < b.cell; });
-  std::vector<LatticePart> result;
-  Lattice parts{};
-  for (std::size_t k = 0; k < footpoints.size(); ++k) {
-    const Lattice& cell = footpoints[k].cell;
-    parts = k > 0 && cell == footpoints[k - 1].cell ? parts : footpoints[k].parts;
-    result.push_back({cell, lattice_part(grid, footpoints[k].position, cell, parts), parts});
-  }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
-
-// Removes the parts that a segment covers. A segment covers a part if their centres differ by less than three quarters
-// of the part's size along each axis.
-template <int Dim>
-void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<LatticePart>& parts) const {
+void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<Lattice>& cells) const {
   constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis that varies fastest in the order of cells
-  std::vector<std::uint8_t> covered(parts.size(), 0);
+  std::vector<std::uint8_t> covered(cells.size(), 0);
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Vector<Real, Dim>& position = segments_[p].position;
     const Lattice own = lattice_cell(grid, position);
@@ -130,48 +83,40 @@ void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std
       Lattice to = from;
       --from[last];
       ++to[last];
-      auto part = std::lower_bound(parts.begin(), parts.end(), from,
-                                   [](const LatticePart& a, const Lattice& cell) { return a.cell < cell; });
-      for (; part != parts.end() && part->cell <= to; ++part) {
-        Real furthest = 0;  // in sizes of the part
+      for (auto cell = std::lower_bound(cells.begin(), cells.end(), from); cell != cells.end() && *cell <= to; ++cell) {
+        Real furthest = 0;  // in cells
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
-          const auto count = static_cast<Real>(part->parts[a]);
-          const Real middle = static_cast<Real>(part->cell[a]) + (static_cast<Real>(part->part[a]) + Real(0.5)) / count;
           const Real in_cells = position[static_cast<int>(a)] * grid.inverse_cell();
-          furthest = std::max(furthest, std::abs(in_cells - middle) * count);
+          furthest = std::max(furthest, std::abs(in_cells - (static_cast<Real>((*cell)[a]) + Real(0.5))));
         }
         if (furthest < Real(0.75)) {
-          std::atomic_ref(covered[static_cast<std::size_t>(part - parts.begin())]).store(1, std::memory_order_relaxed);
+          std::atomic_ref(covered[static_cast<std::size_t>(cell - cells.begin())]).store(1, std::memory_order_relaxed);
         }
       }
     }
   });
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (std::size_t k = 0; k < cells.size(); ++k) {
     if (covered[k] == 0) {
-      parts[kept++] = parts[k];
+      cells[kept++] = cells[k];
     }
   }
-  parts.resize(kept);
+  cells.resize(kept);
 }
 
-// Creates segments at footpoints of nodes in contact that no segment covers. They are placed in the cells of a
-// horizontal lattice, to be independent of the order of nodes.
+// Creates segments in the lattice cells of nodes in contact that no segment covers.
 template <int Dim>
 void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
                                          const NormalAtNode& node_normal, Real thickness, mpm::Nodes<Dim>& nodes) {
-  std::vector<LatticePart> bare = parts_below(grid, contact_footpoints(grid, ground, node_normal, nodes));
+  std::vector<Lattice> bare = cells_in_contact(grid, ground, nodes);
   leave_out_covered(grid, bare);
   const std::size_t known = segments_.size();
-  for (const LatticePart& one : bare) {
-    Vector<Real, Dim - 1> middle, size;
+  for (const Lattice& cell : bare) {
+    Vector<Real, Dim - 1> middle;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      const auto axis = static_cast<int>(a);
-      size[axis] = grid.cell() / static_cast<Real>(one.parts[a]);
-      middle[axis] =
-          static_cast<Real>(one.cell[a]) * grid.cell() + (static_cast<Real>(one.part[a]) + Real(0.5)) * size[axis];
+      middle[static_cast<int>(a)] = (static_cast<Real>(cell[a]) + Real(0.5)) * grid.cell();
     }
-    segments_.push_back(new_segment(middle, size, ground));
+    segments_.push_back(new_segment(middle, Vector<Real, Dim - 1>::Constant(grid.cell()), ground));
     stencils_.emplace_back(grid, segments_.back().position);
     add_area(stencils_.back(), segments_.back(), nodes);
   }
@@ -185,7 +130,7 @@ void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const
   }
 }
 
-// At the edge of the sliding mass, a segment is smaller than its part of the lattice.
+// At the edge of the sliding mass, a segment is smaller than its lattice cell.
 template <int Dim>
 void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
                                        Real thickness, mpm::Nodes<Dim>& nodes, Segment& segment) {
@@ -246,10 +191,6 @@ BasalSegment<Dim> BasalSegments<Dim>::new_segment(const Vector<Real, Dim - 1>& m
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
   template std::array<int, Dim - 1> BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>&,                    \
                                                                      const Vector<Real, Dim>&) const;                \
-  template std::array<int, Dim - 1> BasalSegments<Dim>::parts_on(const Vector<Real, Dim>&);                          \
-  template std::array<int, Dim - 1> BasalSegments<Dim>::lattice_part(                                                \
-      const mpm::SparseGrid<Dim>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,                        \
-      const std::array<int, Dim - 1>&) const;                                                                        \
   template bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&) const;    \
   template void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>&, const Ground&, const NormalAtNode&, \
                                                     Real, mpm::Nodes<Dim>&);

@@ -40,14 +40,14 @@ FollowingGround<Dim>::FollowingGround(std::shared_ptr<const Surface<Dim>> terrai
     columns_.chunks[a] = (columns_.columns[a] + chunk_edge - 1) / chunk_edge;
     count *= static_cast<std::size_t>(columns_.chunks[a]);
   }
-  made_ = std::vector<std::atomic<double*>>(count);
+  made_ = std::vector<std::atomic<Chunk*>>(count);
   limit_slopes(steepest);
 }
 
 template <int Dim>
 FollowingGround<Dim>::~FollowingGround() {
-  for (std::atomic<double*>& heights : made_) {
-    delete[] heights.load();
+  for (std::atomic<Chunk*>& chunk : made_) {
+    delete chunk.load();
   }
 }
 
@@ -72,27 +72,26 @@ typename FollowingGround<Dim>::Point FollowingGround<Dim>::place_of(const Column
 
 // Two threads may compute the same chunk; one of the equal results is kept.
 template <int Dim>
-double* FollowingGround<Dim>::heights_of_chunk(std::size_t chunk) const {
-  double* known = made_[chunk].load(std::memory_order_acquire);
+typename FollowingGround<Dim>::Chunk& FollowingGround<Dim>::means_of_chunk(std::size_t chunk) const {
+  Chunk* known = made_[chunk].load(std::memory_order_acquire);
   if (known != nullptr) {
-    return known;
+    return *known;
   }
   const Column first = first_of_chunk(chunk);
-  auto heights = std::make_unique<double[]>(ColumnChunks<Dim>::size);
+  auto means = std::make_unique<Chunk>();
   for (int c = 0; c < ColumnChunks<Dim>::size; ++c) {
-    heights[static_cast<std::size_t>(c)] =
-        terrain_->column_means(place_of(column_of_chunk<Dim>(first, c)), cell_).height;
+    const auto of_column = terrain_->column_means(place_of(column_of_chunk<Dim>(first, c)), cell_);
+    means->height[static_cast<std::size_t>(c)] = of_column.height;
+    means->area[static_cast<std::size_t>(c)] = of_column.area;
   }
-  if (made_[chunk].compare_exchange_strong(known, heights.get(), std::memory_order_acq_rel)) {
-    return heights.release();
-  }
-  return known;
+  return made_[chunk].compare_exchange_strong(known, means.get(), std::memory_order_acq_rel) ? *means.release()
+                                                                                             : *known;
 }
 
 template <int Dim>
 double& FollowingGround<Dim>::column_height(const Column& column) const {
   const auto place = columns_.place_of(column);
-  return heights_of_chunk(place.chunk)[place.column];
+  return means_of_chunk(place.chunk).height[place.column];
 }
 
 template <int Dim>
@@ -100,7 +99,8 @@ std::vector<double> FollowingGround<Dim>::column_heights() const {
   constexpr auto size = static_cast<std::size_t>(ColumnChunks<Dim>::size);
   std::vector<double> heights(made_.size() * size);
   parallel_for(made_.size(), [&](std::size_t chunk) {
-    std::copy_n(heights_of_chunk(chunk), size, heights.begin() + static_cast<std::ptrdiff_t>(chunk * size));
+    std::copy_n(means_of_chunk(chunk).height.begin(), size,
+                heights.begin() + static_cast<std::ptrdiff_t>(chunk * size));
   });
   return heights;
 }
@@ -113,7 +113,7 @@ std::vector<std::size_t> FollowingGround<Dim>::chunks_steeper_than(double steepe
     const Point from = place_of(first_of_chunk(chunk)) - Point::Constant(2.0 * cell_);
     is_steep[chunk] = terrain_->steepest(from, from + Point::Constant((chunk_edge + 3) * cell_)) > steepest ? 1 : 0;
     if (is_steep[chunk] != 0) {
-      static_cast<void>(heights_of_chunk(chunk));
+      static_cast<void>(means_of_chunk(chunk));
     }
   });
   std::vector<std::size_t> found;
@@ -262,16 +262,17 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, int edge, GroundAtNo
   const bool is_above = first[Dim - 1] > 0;
   for (int c = 0; c < columns; ++c) {
     Column at{};
-    Point point;
     for (int a = 0, rest = c; a + 1 < Dim; ++a, rest /= edge) {
       at[static_cast<std::size_t>(a)] = first[static_cast<std::size_t>(a)] + rest % edge;
-      point[a] = at[static_cast<std::size_t>(a)] * cell_;
     }
+    const Point point = place_of(at);
     const Resolved ground = resolved(at);
-    const double height = column_height(at);
+    const auto place = columns_.place_of(at);
+    const Chunk& means = means_of_chunk(place.chunk);
+    const double height = means.height[place.column];
     double bend = 1.0, scale = 0.0;
     if (!is_above) {
-      const double of_terrain = terrain_->column_means(point, cell_).area / ground.resultant;
+      const double of_terrain = means.area[place.column] / ground.resultant;
       bend = std::max(1.0, std::min(of_terrain, 1.0 + most_bend * (largest_bend_about(at) - 1.0)));
       scale = ground.resultant * std::clamp((ground.bend() - kink_begins) / (kink_ends - kink_begins), 0.0, 1.0);
     }

@@ -87,6 +87,11 @@ class FollowingGround final : public Surface<Dim> {
     [[nodiscard]] double bend() const { return area / resultant; }
   };
 
+  // Means over the hat functions of a chunk's columns, x fastest.
+  struct Chunk {
+    std::array<double, static_cast<std::size_t>(ColumnChunks<Dim>::size)> height, area;  // [m], per horizontal area
+  };
+
   [[nodiscard]] double& column_height(const Column& column) const;
   [[nodiscard]] Column first_of_chunk(std::size_t chunk) const;
   [[nodiscard]] Point place_of(const Column& column) const;
@@ -95,7 +100,7 @@ class FollowingGround final : public Surface<Dim> {
   [[nodiscard]] GroundBelow<Dim> below(const Point& point, double half) const;
   [[nodiscard]] Resolved resolved(const Column& column) const;
   [[nodiscard]] double largest_bend_about(const Column& column) const;
-  [[nodiscard]] double* heights_of_chunk(std::size_t chunk) const;
+  [[nodiscard]] Chunk& means_of_chunk(std::size_t chunk) const;
 
   std::shared_ptr<const Surface<Dim>> terrain_;
   double cell_;
@@ -103,7 +108,7 @@ class FollowingGround final : public Surface<Dim> {
   mpm::SectionWidth width_;
   ColumnChunks<Dim> columns_;
   Lowering lowering_;
-  mutable std::vector<std::atomic<double*>> made_;  // heights by chunk, x fastest; null: not yet computed
+  mutable std::vector<std::atomic<Chunk*>> made_;  // null: not yet computed
 };
 
 }  // namespace thawslide::terrain
