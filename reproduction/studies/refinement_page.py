@@ -215,10 +215,7 @@ def write(place: Place) -> None:
         "filtered": f"{cells_table(alr)}\n\n{spread_words(alr)}",
         "rough": f"{cells_table(rough)}\n\n{spread_words(rough)}",
         "causes": table(["", *(each.words for each in causes)], [read_found(each) for each in causes.values()]),
-        "friction": "\n\n".join(
-            f"On cells of {STUDIED:g} m, {each.words}:\n\n{friction_table(friction(folder))}"
-            for each, folder in causes.items()
-        ),
+        "friction": friction_table(friction(causes[FILTERED])) if FILTERED in causes else "",
     }
     place.page("docs/refinement.md").write_text(text_of("refinement.md", parts), encoding="utf-8")
 
