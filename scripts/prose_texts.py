@@ -251,6 +251,7 @@ def all_texts(root, rules, only=()):
     root = Path(root)
     folders = ("docs", "cases", "benchmarks")
     pages = {*root.glob("*.md"), *(path for folder in folders for path in (root / folder).rglob("*.md"))}
+    pages |= {*(root / "scripts").glob("*.md")}
     sources = {*(root / "src").rglob("*.[ch]pp")}
     sources |= {path for folder in ("python/thawslide", "qgis", "reproduction") for path in (root / folder).rglob("*.py")}
     texts = []

@@ -17,6 +17,7 @@ from mkdocs.structure.files import File, Files
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = re.compile(r"[^/]+\.md|(docs|benchmarks)/.+\.md|cases/[^/]+/[^/]+\.md")
+GENERATED = ROOT / "build" / "site" / "pages"  # by scripts/site
 NOTEBOOKS = "docs/notebooks/*.ipynb"
 NOTEBOOK_LINK = re.compile(r"(\]\([^)\s]+)\.ipynb(?=[)#])")
 LINK = re.compile(r"\]\(([^)\s#]+)")
@@ -36,7 +37,7 @@ VARIANT = re.compile(r'<(mi|mn) mathvariant="(bold|bold-italic|script|double-str
 
 
 def files_of_site():
-    """Return the paths of the pages, and of the files of the repository to which they link."""
+    """Return the path in the site of each page and each file to which a page links, and the file itself."""
     listed = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
@@ -45,14 +46,15 @@ def files_of_site():
         text=True,
     ).stdout
     known = {path for path in listed.splitlines() if (ROOT / path).is_file()}
-    pages = {path for path in known if PAGES.fullmatch(path)}
+    pages = {path: ROOT / path for path in known if PAGES.fullmatch(path)}
+    pages |= {str(path.relative_to(GENERATED)): path for path in GENERATED.rglob("*.md")}
     linked = set()
-    for page in pages:
-        for target in LINK.findall(FENCED.sub("", (ROOT / page).read_text(encoding="utf-8"))):
+    for page, file in pages.items():
+        for target in LINK.findall(FENCED.sub("", file.read_text(encoding="utf-8"))):
             path = (ROOT / page).parent.joinpath(target).resolve()
             if path.is_relative_to(ROOT):
                 linked.add(str(path.relative_to(ROOT)))
-    return sorted(pages | (linked & known))
+    return {path: ROOT / path for path in linked & known} | pages
 
 
 def markdown_of(notebook):
@@ -76,7 +78,7 @@ def markdown_of(notebook):
 def on_files(files, config):
     """Replace the files of docs_dir by those of the repository, and notebooks by pages."""
     theme = [file for file in files if file.src_dir != config.docs_dir]
-    own = {path: ROOT / path for path in files_of_site() if not path.endswith(".ipynb")} | ASSETS
+    own = {path: file for path, file in files_of_site().items() if not path.endswith(".ipynb")} | ASSETS
     pages = {str(path.relative_to(ROOT).with_suffix(".md")): markdown_of(path) for path in ROOT.glob(NOTEBOOKS)}
     return Files(
         theme

@@ -1,7 +1,7 @@
 """The pages of verification: runs the verification tests and writes their results with figures.
 
 Each test appends its problem, solution, errors and orders to a file of JSON lines, below the folder of the runs.
-`./test --full` writes one such file for all tests.
+`./test --full` writes one such file for all tests. As a program, this module prints the appendix for the site.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from reproduction.study import ROOT, Place, Study, StudyError
 
 Record = dict[str, Any]
 TESTS = ROOT / "build" / "release" / "tests"
+DETAILS = "verification-details.md"  # in the folder of the runs
 # Programs, and their tests that write reports.
 PROGRAMS = (
     ("test_verification", "*"),
@@ -109,7 +110,22 @@ experiments](laboratory.md), [AvaFrame](comparison.md), the [Frank slide](frank.
 OPENING = """# Verification: details
 
 This appendix of the [verification](verification.md) contains each problem, its solution and its results.
-`scripts/pages --only verification` generates both pages from the reports of tests.
+`scripts/pages --only verification` generates both pages from the reports of tests. The appendix is in
+`runs/pages/verification` and not in the repository.
+
+"""
+
+STAND_IN = """# Verification: details
+
+This build of the site has no reports of the verification tests, which have each problem with its solution, errors and
+orders. To add them, run the tests (about 25 minutes on one core), and build the site again:
+
+```text
+scripts/pages --only verification
+scripts/site build
+```
+
+The figures are those that the repository contains. The name of a figure is the name of its test.
 
 """
 
@@ -309,6 +325,16 @@ def appendix(records: list[Record], place: Place) -> str:
     return OPENING + "".join(topics) + ELSEWHERE
 
 
+def stand_in(figures: Path) -> str:
+    """Return the appendix without reports: each topic with its comparisons and the existing figures of its tests."""
+    text = STAND_IN
+    for topic, (compared, suites) in TOPICS.items():
+        found = [file.stem for suite in suites.split() for file in sorted(figures.glob(f"{suite}-*.png"))]
+        text += f"## {topic}\n\nCompared: {compared}.\n\n"
+        text += "".join(f"![{name}](verification/{name}.png)\n\n" for name in found)
+    return text
+
+
 def write(place: Place) -> None:
     """Write the pages and their figures from existing records."""
     records = records_in(place)
@@ -316,7 +342,8 @@ def write(place: Place) -> None:
         raise StudyError(f"{place.runs}: no records of tests. Repeat without --draw-only.")
     topics, details = overview(records), appendix(records, place)
     place.page("docs/verification.md").write_text(topics, encoding="utf-8")
-    place.page("docs/verification-details.md").write_text(details, encoding="utf-8")
+    place.runs.mkdir(parents=True, exist_ok=True)
+    (place.runs / DETAILS).write_text(details, encoding="utf-8")
     for figure in place.page("docs/verification/none.png").parent.glob("*.png"):
         if f"(verification/{figure.name})" not in details:
             figure.unlink()
@@ -324,10 +351,14 @@ def write(place: Place) -> None:
 
 STUDY = Study(
     "verification",
-    ("docs/verification.md", "docs/verification-details.md"),
+    ("docs/verification.md",),
     25.0,
     write,
     (tests,),
     lambda place: [TESTS / program for program, _ in programs(place)],
     "Build them with cmake --build build/release.",
 )
+
+if __name__ == "__main__":
+    made = ROOT / "runs" / "pages" / "verification" / DETAILS
+    print(made.read_text(encoding="utf-8") if made.exists() else stand_in(ROOT / "docs" / "verification"), end="")

@@ -5,7 +5,7 @@
 
 namespace thawslide::app {
 
-// As Markdown: the page docs/reference/outputs-columns.md.
+// As Markdown: the page "Columns, datasets and maps" of the site.
 [[nodiscard]] std::string describe_outputs();
 
 }  // namespace thawslide::app

@@ -1,4 +1,4 @@
-// Command line: options, commands and exit codes (listed in docs/reference/command-line.md).
+// Command line: options, commands and exit codes (listed in scripts/command_line_page.md).
 #include <fmt/ranges.h>
 #include <unistd.h>
 

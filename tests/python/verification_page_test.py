@@ -72,4 +72,11 @@ def test_a_record_without_a_topic_changes_no_page(place: Place, monkeypatch: pyt
     assert old.exists() and not (place.pages / "docs" / "verification.md").exists()
     records.write_text(record(known))
     verification.write(place)
-    assert not old.exists() and "### A" in (place.pages / "docs" / "verification-details.md").read_text()
+    assert not old.exists() and "### A" in (place.runs / verification.DETAILS).read_text()
+
+
+def test_the_appendix_without_records_has_every_topic_and_every_stored_figure() -> None:
+    figures = ROOT / "docs" / "verification"
+    text = verification.stand_in(figures)
+    assert set(re.findall(r"^## (.+)$", text, re.MULTILINE)) == set(verification.TOPICS)
+    assert set(re.findall(r"\(verification/(.+)\)", text)) == {path.name for path in figures.glob("*.png")}
