@@ -17,11 +17,9 @@ KINDS = {
     ("short", "full"): "half of the data of that call is written, and nothing after it (disk full)",
 }
 
-
 def paragraph(text: str) -> str:
     """Return a paragraph, wrapped for a page."""
     return textwrap.fill(text, 118, break_on_hyphens=False, break_long_words=False) + "\n"
-
 
 def head() -> str:
     """Return the introduction of the page."""
@@ -32,7 +30,6 @@ def head() -> str:
         "continue a run that has stopped."
     )
 
-
 def findings_text(rows: list[dict[str, Any]]) -> str:
     """Return the list of findings; empty if there are none."""
     findings = [finding for row in rows for finding in row["findings"]]
@@ -40,7 +37,6 @@ def findings_text(rows: list[dict[str, Any]]) -> str:
         return ""
     lines = [f"- {finding}" for finding in findings[:20]]
     return f"\n{len(findings)} findings, of which:\n\n" + "\n".join(lines) + "\n"
-
 
 def kills_text(found: dict[str, Any]) -> str:
     """Return the section on killed runs."""
@@ -67,7 +63,6 @@ def kills_text(found: dict[str, Any]) -> str:
         + findings_text(rows)
     )
 
-
 def writes_text(found: dict[str, Any]) -> str:
     """Return the section on calls that fail."""
     rows = found["rows"]
@@ -89,7 +84,6 @@ def writes_text(found: dict[str, Any]) -> str:
         + findings_text(rows)
     )
 
-
 def corruption_text(found: dict[str, Any]) -> str:
     """Return the section on damaged checkpoints."""
     row = found["rows"][0]
@@ -102,7 +96,6 @@ def corruption_text(found: dict[str, Any]) -> str:
         )
         + findings_text(found["rows"])
     )
-
 
 def mistakes_text(found: dict[str, Any]) -> str:
     """Return the section on wrong case files."""
@@ -121,12 +114,10 @@ def mistakes_text(found: dict[str, Any]) -> str:
         + findings_text(found["rows"])
     )
 
-
 def commit_of(version: str) -> str:
     """Return the commit of a version."""
     named = re.search(r"commit (\w+)", version)
     return named.group(1)[:7] if named else version
-
 
 def fuzzing_text(found: dict[str, Any]) -> str:
     """Return the section on random input."""
@@ -146,9 +137,9 @@ def fuzzing_text(found: dict[str, Any]) -> str:
         "## Fuzzing\n\n"
         + paragraph(
             "Readers of files that users write get random bytes, guided by code coverage. The programs are built "
-            "with libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. The "
-            "[developer guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an "
-            "error that names the file, within a few seconds and a few gigabytes."
+            "with libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. "
+            "`tests/fuzz/README.md` lists the targets. A reader must return a value, or an error that names the file, "
+            "within a few seconds and a few gigabytes."
         )
         + "\n| target | processor minutes | inputs tried | edges covered | findings in Thawslide | in libraries "
         + "| commit |\n"
@@ -156,7 +147,6 @@ def fuzzing_text(found: dict[str, Any]) -> str:
         + "".join(lines)
         + ("\n" + "".join(findings) if findings else "")
     )
-
 
 def soak_text(found: dict[str, Any]) -> str:
     """Return the section on a million steps."""
@@ -197,7 +187,6 @@ def soak_text(found: dict[str, Any]) -> str:
         )
     )
 
-
 TEXTS = {
     "kills": kills_text,
     "writes": writes_text,
@@ -207,7 +196,6 @@ TEXTS = {
     "soak": soak_text,
 }
 
-
 def duration_text(seconds: float) -> str:
     """Return a duration in whole minutes."""
     minutes = round(seconds / 60)
@@ -215,13 +203,11 @@ def duration_text(seconds: float) -> str:
         return "less than a minute"
     return f"{minutes} minute" if minutes == 1 else f"{minutes} minutes"
 
-
 def made_text(name: str, found: dict[str, Any]) -> str:
     """Return the version of the program and the run time of a part."""
     if name == "fuzzing":  # targets can be of different versions
         return f"{sum(row['seconds'] for row in found['rows']) / 3600:.1f} hours of processor time"
     return f"{found['version']}, {duration_text(found['wall_s'])}"
-
 
 def write_page(results: Path, page: Path) -> None:
     """Write the page; it names parts that have not been run."""
