@@ -43,7 +43,7 @@ QUICK = (("test_physics", "MohrCoulomb.ReturnSolves*"), ("test_gis", "ReleaseVol
 TOPICS = {
     "Motion and stress": (
         "manufactured solutions, vibration and impact of elastic bars, patch tests, rotation, filtered velocities",
-        "Vibration FineVibration Bar VelocityFilter ElasticImpact Turning Patch FreeFall MohrCoulomb RestNoise",
+        "Vibration FineVibration Bar VelocityFilter ElasticImpact Rotation Patch FreeFall MohrCoulomb RestNoise",
     ),
     "Friction on terrain": (
         "rigid blocks on slopes, in bends and bowls; terminal velocity of Voellmy friction; invariance under rotation",
@@ -71,7 +71,7 @@ TOPICS = {
     ),
     "Heat and freezing": (
         "half space, two layers, solutions of Neumann and Lunardini, manufactured melting, heat budget",
-        "Conduction Freezing HeatLedger",
+        "Conduction Freezing HeatBudget",
     ),
     "Pore pressure": (
         "undrained heating, diffusion, manufactured solution",

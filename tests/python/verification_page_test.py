@@ -37,7 +37,7 @@ def test_recorded_tests_are_found() -> None:
         "FollowingCells.ReproduceLinearFields": "test_verification",
         "RoughDems.FilteredAddNoFriction": "test_long",
     }
-    by_function = {"Bar.UgimpFlip": "test_sim", "Entrainment.SweepsUpALayerInThePlane": "test_verification"}
+    by_function = {"Bar.UgimpFlip": "test_sim", "Entrainment.BlockEntrainsALayerInThePlane": "test_verification"}
     assert (direct | by_function).items() <= found.items()
 
 

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-TEST(WholeLamplugh, RunsOutAndStopsNearWhatWasReported) {
+TEST(WholeLamplugh, RunoutAndStopAreNearTheReportedValues) {
   Simulation<2> simulation(config::read_case(THAWSLIDE_SOURCE_DIR "/cases/lamplugh"));
   double peak = 0.0, rests_at = 0.0, displacement_at_rest = 0.0;
   while (simulation.time() < 200.0 - 1e-9) {

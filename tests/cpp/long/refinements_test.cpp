@@ -35,7 +35,7 @@ TEST(FineBarCollapse, EndsNearTheMeasuredSurface) {
 }
 
 // V channels of three openings and two widths, with the thalweg on and between grid lines and oblique to them.
-TEST(VChannelsOnDem, HoldAsTheWedgeSays) {
+TEST(VChannelsOnDem, FrictionIsThatOfAWedge) {
   using namespace channel_on_dem;
   Record record = make_record("V channels on a DEM: openings, widths and directions");
   for (const double cells : {8.0, 4.0}) {
@@ -49,7 +49,7 @@ TEST(VChannelsOnDem, HoldAsTheWedgeSays) {
 }
 
 // Cylindrical granular columns of three heights collapse.
-TEST(CylindricalColumns, RunOutAsExperimentsDo) {
+TEST(CylindricalColumns, RunoutAgreesWithExperiments) {
   using namespace cylinder_column;
   Record record = make_record("Collapse of cylindrical granular columns");
   for (const double aspect : {0.5, 1.0, 2.0}) {
@@ -58,7 +58,7 @@ TEST(CylindricalColumns, RunOutAsExperimentsDo) {
 }
 
 // Collapse of a cylindrical granular column on up to 64 cells across its radius.
-TEST(FineCylinderSection, RunsOutAsExperimentsDo) {
+TEST(FineCylinderSection, RunoutAgreesWithExperiments) {
   using namespace cylinder_column;
   Record record = make_section_record("Collapse of a cylindrical granular column on fine cells");
   expect_approach(record, {16, 32, 64}, {0.40, 0.15, 0.08});
@@ -67,7 +67,7 @@ TEST(FineCylinderSection, RunsOutAsExperimentsDo) {
 }
 
 // The complete 25 s on the incline: the mechanical energy budget closes.
-TEST(WholeIncline, MechanicalAccountClosesInFirstOrderOfTheStep) {
+TEST(WholeIncline, MechanicalResidualIsOfFirstOrderInTheStep) {
   Record record(
       "Mechanical energy budget on the incline, 25 s",
       "Cases D, D-L, D-L-P and P-L of Sec. 3.3: mechanical_residual_J over the work of gravity and the size of "
@@ -108,7 +108,7 @@ TEST(FineVibration, ManufacturedWithLargeDisplacements) {
 }
 
 // By the symmetries of the square, the azimuths represent 0, 7.5, 15, ... 45 degrees.
-TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
+TEST(PlanesOnDem, BlocksSlideOrStickInAllDirections) {
   using namespace plane_on_dem;
   Record record = make_record("Block on planes of a DEM, four slopes and eight directions");
   for (const double slope : {0.0, 15.0, 30.0, 45.0}) {

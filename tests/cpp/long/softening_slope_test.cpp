@@ -38,7 +38,7 @@ Failure fail(double cell, const std::string& softening) {
           value_of(row, "plastic_J") + value_of(row, "viscous_J") + value_of(row, "friction_work_J")};
 }
 
-TEST(SofteningSlope, DissipatesTheSameOnFinerCells) {
+TEST(SofteningSlope, DissipationIsIndependentOfTheCellSize) {
   Record record("Slope that softens over a slip",
                 "A rock slope of 45 degrees, 200 m high, fails along shear bands a cell wide. The cohesion falls from "
                 "160 to 20 kPa over a slip of 4 m. Dissipated: plastic, viscous and basal friction work.",

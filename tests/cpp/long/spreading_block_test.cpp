@@ -26,7 +26,7 @@ double spread(double cell, double above) {
   return mass_spread(simulation);
 }
 
-TEST(SpreadingBlock, SpreadsAlikeOnCellsOfAnySize) {
+TEST(SpreadingBlock, SpreadingIsIndependentOfTheCellSize) {
   Record record(
       "Loose block that spreads over level ground",
       "A block of 200 m x 40 m without cohesion on a base with the friction coefficient 0.02. The ground is at an "
@@ -39,7 +39,7 @@ TEST(SpreadingBlock, SpreadsAlikeOnCellsOfAnySize) {
   record.expect_near("cells of 10 m over 5 m, ground at a tenth of a cell", spread(10.0, 0.1) / finest, 1.0, 0.005);
 }
 
-TEST(SpreadingBlock, SpreadsAsOnAGridLineInFineCellsThatFollowPlanes) {
+TEST(SpreadingBlock, SpreadsOnPlanesAsOnLevelGround) {
   Record record(
       "Cells that follow the ground: loose block that spreads on a plane, cells of 5 m",
       "A block of 200 m x 40 m without cohesion on a base with the friction coefficient 0.02. Gravity is "

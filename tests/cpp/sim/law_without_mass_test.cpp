@@ -34,7 +34,7 @@ std::vector<Real> velocities(Simulation<Dim>& simulation, bool reads_mass) {
   return all;
 }
 
-TEST(LawWithoutMass, GivesTheBitsOfTheSumsNearTheGround) {
+TEST(LawWithoutMass, IsBitwiseEqualToTheSumsNearTheGround) {
   const testing_support::Sets coulomb = "basal.friction=constant; basal.friction_angle=15";
   const auto plane = slide_on_plane(30.0, coulomb), plane_with_sums = slide_on_plane(30.0, coulomb);
   EXPECT_EQ(velocities(*plane, false), velocities(*plane_with_sums, true));

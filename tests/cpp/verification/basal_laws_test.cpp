@@ -26,7 +26,7 @@ Last run_to_end(const Sets& sets) {
   return {{row.begin(), row.end()}, {rows.back().begin(), rows.back().end()}};
 }
 
-TEST(Bonds, CostTheirEnergyOnce) {
+TEST(Bonds, DissipateTheirEnergyOnce) {
   constexpr double initial = 1e5, distance = 4.0;
   Record record(
       "Bonds of ice: energy of breaking",
@@ -44,7 +44,7 @@ TEST(Bonds, CostTheirEnergyOnce) {
 // From rock onto a glacier: while a rigid block crosses the border, friction decreases in proportion to the part that
 // has crossed. Friction acts at its base, below its centre of mass. Its load is therefore shifted forward, by mu h/2 on
 // average (from the balance of moments), and reaches the border earlier by the same distance.
-TEST(Substrates, SlidingDistanceOverTwo) {
+TEST(Substrates, TravelDistanceOverTwoIsExact) {
   constexpr double on_rock = 0.3, on_ice = 0.15, start = 20.0, border = 52.5;
   const double to_border = border - length, mean = 0.5 * (on_rock + on_ice);
   const double rest = start * start / (2.0 * gravity) - on_rock * to_border - mean * length;  // m, of v^2/2g

@@ -48,7 +48,7 @@ config::Case slide_into_bend(const Sets& sets = {}) {
 
 double mean_cosine(double angle, double half) { return std::cos(angle) * std::sin(half) / half; }
 
-TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
+TEST(BendPressure, BlockHasTheCentrifugalLoadOfAnArc) {
   Record record("Pressure in a bend, rigid block",
                 "A slab 10 m thick slides down a slope of 40 degrees and through an arc of 300 m radius. The points of "
                 "the profile are 1 m apart. The slab is a rigid block with block.bends.",
@@ -76,7 +76,7 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
   record.draw(curve);
 }
 
-TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
+TEST(BendPressure, BlockHasItOnlyWithTheKey) {
   const auto pressures = [](const Sets& sets) {
     std::vector<double> found;
     for (const auto& row : sim::run_block(slide_into_bend(sets))) {
@@ -93,7 +93,7 @@ TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
 }
 
 // Over a crest, detached material exerts no pressure, and the pressure is never negative.
-TEST(BendPressure, IsNeverBelowZero) {
+TEST(BendPressure, IsNeverNegative) {
   EXPECT_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 100.0), 0.0);
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 200.0), 9.0);
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, 1.0 / 200.0), 27.0);
@@ -137,7 +137,7 @@ double load_of_nodes(const Simulation<2>& simulation) {
   return load;
 }
 
-TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
+TEST(BendPressure, SlideHasTheCentrifugalLoadOfAnArc) {
   if (!Simulation<2>(slide_into_bend()).device_name().empty()) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }

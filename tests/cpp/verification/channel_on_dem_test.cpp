@@ -6,7 +6,7 @@ namespace {
 
 using namespace channel_on_dem;
 
-TEST(VChannelOnDem, HoldsAsTheWedgeSays) {
+TEST(VChannelOnDem, FrictionIsThatOfAWedge) {
   Record record = make_record("V channels on a DEM");
   expect_wedge(record, 120.0, 8.0, {45.0, 0.0});
   expect_wedge(record, 90.0, 8.0, {22.5, 0.0});
@@ -15,7 +15,7 @@ TEST(VChannelOnDem, HoldsAsTheWedgeSays) {
   record.explain("In a narrow V whose thalweg is halfway between two columns of nodes, friction is lower.");
 }
 
-TEST(VChannelOnDem, HoldsALooseFillToo) {
+TEST(VChannelOnDem, FrictionOfALooseFillIsThatOfAWedge) {
   Record record("V channels on a DEM, loose fill",
                 "The same with a fill without cohesion, friction angle 35 degrees, 8 cells wide, thalweg on a grid "
                 "line. In the narrow one the fill settles first: mean from 2 to 4 s.",
@@ -29,7 +29,7 @@ TEST(VChannelOnDem, HoldsALooseFillToo) {
   }
 }
 
-TEST(UChannelOnDem, HoldsAsAHalfPipe) {
+TEST(UChannelOnDem, FrictionIsThatOfAHalfPipe) {
   Record record("U channel on a DEM", "The same with a section of half a circle, 8 cells wide, filled to the brim.",
                 "apparent friction over that of the ground = 4/pi", "pressure of a fluid on a half pipe");
   const Channel channel = u_channel(8.0 * channel_cell);

@@ -19,7 +19,7 @@ Raster small_block(const Place& centre) {
 }
 
 // Verifies the point mass used as reference with a closed form.
-TEST(PointOnSurface, SwingsInTheBowl) {
+TEST(PointOnSurface, OscillatesInTheBowl) {
   constexpr double radius = 100.0, friction = 0.2;
   const auto bowl = [](double x, double y) { return radius - std::sqrt(radius * radius - x * x - y * y); };
   const double start = 50.0 * degree;
@@ -36,7 +36,7 @@ TEST(PointOnSurface, SwingsInTheBowl) {
 // The block has an extent: it is compared with a point at the same distance from the centre of the sphere as its centre
 // of mass. With phi from the lowest point, the point is pressed to its circle with N = m (g cos phi + v^2/r), so that
 //   d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2)
-TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
+TEST(Bowl, BlockOscillatesLikeAPointMassWithFriction) {
   constexpr double radius = 200.0, start = 40.0 * degree, azimuth = 205.0 * degree;
   Record record("A small block in a bowl",
                 "A block, 10 m square and 5 m high, slides from rest at 40 degrees down a spherical bowl of 200 m "
@@ -137,7 +137,7 @@ std::vector<double> run_along(double turns, Curve& curve) {
   return ratios;
 }
 
-TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
+TEST(HelicalChannel, BlockMovesLikeAPointMassOnTheSurface) {
   Record record(
       "A small block in a channel along a helix",
       "A block, 10 m square and 5 m high, slides down one turn of a channel of circular section (60 m radius). The "

@@ -6,7 +6,7 @@ namespace {
 
 using namespace cylinder_column;
 
-TEST(CylindricalColumn, RunsOutAsExperimentsDo) {
+TEST(CylindricalColumn, RunoutAgreesWithExperiments) {
   Record record = make_record("Collapse of a cylindrical granular column");
   expect_runout(record, 1.0);
 }

@@ -21,7 +21,7 @@ Simulation<2> falling_bar(double cell, double height, bool distance_check = true
   return Simulation<2>(published_case("block", falling + bar + "guards.energy_growth=inf"));
 }
 
-TEST(ElasticImpact, GivesTheEnergyBack) {
+TEST(ElasticImpact, ConservesEnergy) {
   Record record("Impact of an elastic bar",
                 "A bar of 20 m, whose lower end touches the ground at t = 0, moves into it at 1 m/s.",
                 "it leaves with the speed it came with after 2 H/c; pressure rho c v until then",
@@ -88,7 +88,7 @@ Landing land(double cell, bool distance_check) {
   return landing;
 }
 
-TEST(ElasticImpact, ComesWhereTheEdgesMeet) {
+TEST(ElasticImpact, BeginsWhenTheEdgesTouch) {
   Record record("Early contact",
                 "The same bar comes from two cells above the ground, with basal.distance_check on and off.",
                 "its lower end touches at height 0; it leaves with the energy it came with", "docs/theory/contact.md");
@@ -141,7 +141,7 @@ double stress_error(const Simulation<2>& simulation, const physics::exact::Turni
   return root_mean_square(errors) / exact.at(0.0).radial;
 }
 
-TEST(Turning, CarriesItsStressRound) {
+TEST(Rotation, StressRotatesWithTheBody) {
   Record record("A stressed cylinder turns",
                 "An elastic cylinder turns by 90 degrees about its axis, under the stress that turning "
                 "gives it.",

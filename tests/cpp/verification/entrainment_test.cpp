@@ -77,8 +77,8 @@ void sweep_up(const std::string& where) {
   record.draw(curve);
 }
 
-TEST(Entrainment, SweepsUpALayerInThePlane) { sweep_up<2>("2D"); }
-TEST(Entrainment, SweepsUpALayerInSpace) { sweep_up<3>("3D"); }
+TEST(Entrainment, BlockEntrainsALayerInThePlane) { sweep_up<2>("2D"); }
+TEST(Entrainment, BlockEntrainsALayerInSpace) { sweep_up<3>("3D"); }
 
 // With Coulomb friction mu on a bed of mu_b, by the law of momentum: the drag on the slide is mu m g for any
 // entrainment, and therefore v = v0 - mu g t, and dm v = (mu - mu_b) m g dt.
@@ -103,11 +103,11 @@ void entrain_by_friction(const std::string& where) {
   record.expect_near("momentum left over, as a share", now.residual, 0.0, 1e-13);
 }
 
-TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInThePlane) { entrain_by_friction<2>("2D"); }
-TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInSpace) { entrain_by_friction<3>("3D"); }
+TEST(Entrainment, RateFollowsFromTheExcessShearInThePlane) { entrain_by_friction<2>("2D"); }
+TEST(Entrainment, RateFollowsFromTheExcessShearInSpace) { entrain_by_friction<3>("3D"); }
 
 // A bed stronger than the friction remains in place and has no effect on the slide.
-TEST(Entrainment, ABedThatWithstandsTheShearStays) {
+TEST(Entrainment, BedThatResistsTheShearRemains) {
   for (const std::string law : {"strength", "momentum"}) {
     const auto on_bed = [&](double strength) {
       return thrown<2>(10.0, 1.0, 17.0, bed + fmt::format("bed.law={}; bed.strength={}; bed.depth=2", law, strength));

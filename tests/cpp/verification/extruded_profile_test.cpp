@@ -52,7 +52,7 @@ Simulation<3> in_space() {
   return Simulation<3>(case_on_dem(base_text("sand"), sets_of(3)), site);
 }
 
-TEST(ExtrudedProfile, RunsAsInTwoDimensions) {
+TEST(ExtrudedProfile, MotionIsThatInTwoDimensions) {
   Record record(
       "A profile extruded to a DEM",
       "Debris, 40 m long and 7.5 m thick, is pushed over the edge of a shelf, down a slope of 35 degrees and onto a "

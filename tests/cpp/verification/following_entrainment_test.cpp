@@ -45,7 +45,7 @@ State state_of(const Simulation<2>& simulation) {
 
 // With the friction coefficient mu on a bed of mu_b, by the law of momentum: dv/dt = g (sin a - mu cos a), and v dm =
 // (mu - mu_b) m g cos a dt.
-TEST(FollowingEntrainment, FrictionOnAPlaneEntrainsWhatItHasImpulseFor) {
+TEST(FollowingEntrainment, RateOnAPlaneFollowsFromTheExcessShear) {
   constexpr double end = 3.0;
   const double mu = std::tan(20.0 * degree), mu_bed = std::tan(14.0 * degree);
   Simulation<2> simulation =
@@ -61,7 +61,7 @@ TEST(FollowingEntrainment, FrictionOnAPlaneEntrainsWhatItHasImpulseFor) {
 
 // Without friction and strength, the block entrains the whole bed below its path. The depth d is along the vertical: m
 // = m0 + rho_b d (x - x0), and (m v)^2 = (m0 v0)^2 + 2 g sin a (m^3 - m0^3)/(3 rho_b d cos a).
-TEST(FollowingEntrainment, ABlockOnAPlaneSweepsUpALayer) {
+TEST(FollowingEntrainment, BlockOnAPlaneEntrainsALayer) {
   constexpr double depth = 2.0;
   const double front = plane.place(half_length, 0)[0];
   Simulation<2> simulation =

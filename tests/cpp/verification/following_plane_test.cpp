@@ -8,7 +8,7 @@
 namespace thawslide::verification {
 namespace {
 
-TEST(FollowingPlane, BlockSpreadsAsOnAGridLine) {
+TEST(FollowingPlane, BlockSpreadsAsOnLevelGround) {
   Record record(
       "Cells that follow the ground: loose block that spreads on a plane",
       "A block of 200 m x 40 m without cohesion on a base with the friction coefficient 0.02. Gravity is "

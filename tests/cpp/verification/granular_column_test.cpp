@@ -31,7 +31,7 @@ Deposit collapse(double aspect, const Sets& more = {}) {
 double runout_of_lube(double aspect) { return aspect < 1.8 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3.0); }
 double height_of_lube(double aspect) { return aspect < 1.15 ? aspect : std::pow(aspect, 0.4); }
 
-TEST(GranularColumn, RunsOutAsExperimentsDo) {
+TEST(GranularColumn, RunoutAgreesWithExperiments) {
   Record record("Collapse of granular columns",
                 "Columns 10 m wide and of aspect ratio 0.5 to 6 collapse. The friction angle is 31 degrees along the "
                 "ground and 36.9 inside, which is equivalent on slip planes without dilation. Tall columns leave less "
@@ -94,7 +94,7 @@ void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
   record.draw(curve);
 }
 
-TEST(DamBreak, RunsAsTheThinFlowOfRitter) {
+TEST(DamBreak, AgreesWithTheThinFlowOfRitter) {
   Record record("Dry dam break",
                 "Material without strength, 5 m deep and 60 m long, is released at its front on smooth ground. The "
                 "ground is level, or slopes by 20 degrees; on the slope all of the material slides as it spreads.",

@@ -6,7 +6,7 @@
 namespace thawslide::verification {
 namespace {
 
-TEST(InclineEnergy, ClosesInFirstOrderOfTheStep) {
+TEST(InclineEnergy, ResidualIsOfFirstOrderInTheStep) {
   Record record(
       "Mechanical energy budget on the incline, the first 2 s",
       "Cases D, D-L, D-L-P and P-L of Sec. 3.3: mechanical_residual_J over the work of gravity and the size of "

@@ -67,7 +67,7 @@ Seen leave(int threads) {
   return seen;
 }
 
-TEST(LeavingDem, AccountsCloseForAnyNumberOfThreads) {
+TEST(LeavingDem, BudgetsCloseForAnyNumberOfThreads) {
   Record record("A slide that leaves the DEM",
                 "Debris with heat and pore pressure runs 4 s down a gully; particles beyond the edge of the DEM are "
                 "removed and counted. Maximum residual of the budgets, every half second.",

@@ -46,7 +46,7 @@ std::string parabola() {
   return "body.block.vertices=[" + vertices + "]";
 }
 
-TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
+TEST(ParabolicPile, SpreadingAgreesWithSavageAndHutter) {
   Record record("Parabolic pile that spreads across its direction of travel",
                 "A parabolic pile without cohesion (35 degrees), 20 m high and 400 m long, spreads on a base without "
                 "friction that lies on a grid line.",

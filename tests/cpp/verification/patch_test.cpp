@@ -37,7 +37,7 @@ void for_inner_particles(const Simulation<2>& simulation, const Visit& visit) {
 const std::vector<std::string> shapes{"ugimp", "quadratic"};
 const std::vector<double> shifts{0.0, 0.13, 0.25, 0.371, 0.5};
 
-TEST(Patch, UniformStressMovesNothing) {
+TEST(Patch, UniformStressCausesNoMotion) {
   Record record("Patch test: uniform stress",
                 "A body under uniform stress, cut by the grid's lines anywhere; within it nothing may accelerate.",
                 "no force on inner nodes", "statics");

@@ -90,7 +90,7 @@ TEST(PorePressure, Manufactured) {
 const Sets column{"case.gravity=0; time.end=700; grid.cell=0.1; grid.max=[1,2]; body.column.max=[0.1,1]",
                   "body.column.temperature=1"};
 
-TEST(UndrainedHeating, FollowsLambda) {
+TEST(UndrainedHeating, PressureRisesInProportionToTemperature) {
   Record record("Undrained heating",
                 "A melted bar heated at its end; the rock's expansion is a hundred times larger than real, so that the "
                 "porosity falls as it warms.",

@@ -37,7 +37,7 @@ Pressing press(const Sets& sets) {
   return seen;
 }
 
-TEST(RestingBlock, PressesEvenly) {
+TEST(RestingBlock, PressureIsUniform) {
   if (!Simulation<2>(published_case("block", resting)).device_name().empty()) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }

@@ -64,7 +64,7 @@ std::vector<double> errors_on_cells(Record& record, const Sets& sets) {
   return errors;
 }
 
-TEST(SlipOnPlane, LosesStrengthAsRiceSays) {
+TEST(SlipOnPlane, StrengthAgreesWithRice) {
   Record record("Slip on a plane with thermal pressurization",
                 "A melted slab driven at 1 m/s over a sealed base; pore water diffuses into it, the heat stays in the "
                 "first cells.",

@@ -23,7 +23,7 @@ config::Case slab_on_plane(double ground) {
                 "heat.enabled=true; pressure.enabled=true"});
 }
 
-TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
+TEST(TiltedTerrain, MotionIsIndependentOfTheAngleToTheGrid) {
   Record record("One incline at four angles to the grid",
                 "A slab slides down 35 degrees with a friction angle of 20 degrees; the grid lies along the slope or "
                 "cuts through it.",
@@ -81,7 +81,7 @@ struct Turning {
   [[nodiscard]] double angle() const { return std::atan2(-centre[0], -centre[1]); }
 };
 
-TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
+TEST(CurvedTerrain, OscillatesLikeAPendulumWithFriction) {
   Record record("A slide in a circular arc",
                 "A body 10 m thick and 43 m long slides from rest at 40 degrees down an arc of 400 m radius. The arc "
                 "is a polyline; the friction angle is 10 degrees.",

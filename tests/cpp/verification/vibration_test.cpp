@@ -8,7 +8,7 @@ namespace {
 const std::vector<int> cells{8, 16, 32};
 const std::vector<double> sizes{1.0 / 8, 1.0 / 16, 1.0 / 32};
 
-TEST(Vibration, ManufacturedWhereNothingCrossesCells) {
+TEST(Vibration, ManufacturedWithSmallDisplacements) {
   Record record("Momentum, manufactured, small displacements", problem + "A = 1e-4: no particle leaves its cell.",
                 solution, source);
   for (const Choice& choice : {ugimp_flip, ugimp_apic, quadratic_flip, quadratic_apic}) {

@@ -21,7 +21,7 @@ double heat_moved(const Simulation<2>& simulation, const std::vector<double>& st
   return moved;
 }
 
-TEST(HeatLedger, ClosesThroughMelting) {
+TEST(HeatBudget, ClosesDuringMelting) {
   Record record("Heat of an insulated body that melts", "One half of a body, at 30 C, melts the other half, at -3 C.",
                 "the heat content does not change", "energy balance");
   for (const std::string curve : {"power_law", "linear"}) {
@@ -47,7 +47,7 @@ TEST(HeatLedger, ClosesThroughMelting) {
 const Sets seeping{"case.gravity=0; time.end=4000; time.step=1; grid.cell=0.05; grid.max=[0.5,1.2]",
                    "material.soil.hydraulic_conductivity=1e-9; body.column.max=[0.05,1]; body.column.temperature=25"};
 
-TEST(HeatLedger, ShowsWhatAdvectionMakes) {
+TEST(HeatBudget, ReportsTheHeatCreatedByAdvection) {
   Record record("Heat of a melted column through which water seeps",
                 "Water seeps up an insulated, melted column as its pressure drains; the advection term of Eq. 9 is not "
                 "in conservation form.",
@@ -95,7 +95,7 @@ const Sets braking{"time.end=2; time.step=0.002; material.rock.poisson_ratio=0; 
                    "body.block.velocity=[20,0]; basal.heat_fraction=0.35; band.thickness=0.05",
                    "heat.enabled=true; pressure.enabled=true"};
 
-TEST(HeatLedger, FrictionHeatsTheSlide) {
+TEST(HeatBudget, FrictionHeatsTheSlide) {
   Record record("Friction work becomes heat", "A block of rock and ice brakes on level ground and melts at its base.",
                 "work of friction = kinetic energy lost; 0.35 of it is heat in the block", "energy balance");
   Simulation<2> simulation(published_case("block", braking));
