@@ -8,14 +8,13 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from reproduction.engine import is_done, processor_time
+from reproduction.engine import is_done
 from reproduction.studies import frank
 from reproduction.study import Place, Study
 from reproduction.tables import markdown, text_of
 from thawslide.figures.map_panel import coordinate_text, outline, scale_bar
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, RED, styled
 from thawslide.maps import Map
-from thawslide.run_folder import Run
 
 SHALTOP, THAWSLIDE = "SHALTOP", "Thawslide"
 COLOURS = {SHALTOP: BLUE, THAWSLIDE: RED}
@@ -37,7 +36,6 @@ ROWS: dict[str, Callable[[frank.Figures], str]] = {
     "volume at the end (million m3)": lambda found: f"{found.volume:.1f}",
 }
 
-
 def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     """Return the numbers of both codes for each angle."""
     head = [""]
@@ -48,7 +46,6 @@ def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
         for words, text in ROWS.items()
     ]
     return markdown([head, *rows])
-
 
 def difference_table(
     found: dict[tuple[int, str], frank.Figures], differences: dict[tuple[int, str], frank.Difference]
@@ -65,22 +62,6 @@ def difference_table(
             + (f"{apart.overlap:.2f} | {100.0 * apart.moved:.0f} %" if apart else " | ")
         )
     return markdown(lines)
-
-
-def end_table(folders: dict[str, Path]) -> str:
-    """Return a table of the ends of the runs."""
-    head = "run | simulated (s) | at rest | mean velocity at the end (m/s) | left the DEM | particles | processor (s)"
-    lines = [head]
-    for name, folder in folders.items():
-        run = Run(folder)
-        history, rest = run.history, "yes" if run.facts["at_rest"] else "no"
-        left = 100.0 * history["left_mass_kg"][-1] / history["mass_kg"][0]
-        lines.append(
-            f"{name} | {run.last_time:.0f} | {rest} | {history['mean_velocity_m_s'][-1]:.2f} | {left:.1f} % "
-            f"| {run.facts['particles']:,} | {processor_time(folder):.0f}"
-        )
-    return markdown(lines)
-
 
 @styled
 def deposits(
@@ -123,7 +104,6 @@ def deposits(
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
-
 @styled
 def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
     """Return the section area of the deposits along x, one panel per angle."""
@@ -150,7 +130,6 @@ def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
 
-
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     """Return the published values, and comparable values of both codes."""
     head = " | drop (m) | travel distance (m) | H/L | area (km2) | volume (million m3)"
@@ -161,7 +140,6 @@ def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
         for name, (drop, travel, area, volume) in ({"Frank slide, Mitchell et al. (2019)": PUBLISHED} | rows).items()
     ]
     return markdown([head, *lines])
-
 
 def write(place: Place) -> None:
     """Write the page and its figures from existing runs."""
@@ -194,16 +172,13 @@ def write(place: Place) -> None:
         "numbers": main_table(numbers),
         "published": published_table(numbers),
         "causes": difference_table(rows, apart),
-        "ends": end_table(folders),
     }
     place.page("docs/frank.md").write_text(text_of("frank.md", parts), encoding="utf-8")
-
 
 def needs(place: Place) -> list[Path]:
     """Return the terrain, the pile and the results of SHALTOP."""
     data = place.data / "frank"
     return [data / name for name in ("Frankslide_topography.asc", "Frankslide_pile.asc", "shaltop")]
-
 
 STUDY = Study(
     "frank",
