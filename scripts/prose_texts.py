@@ -11,6 +11,7 @@ CODE = "\N{CURRENCY SIGN}"  # replaces a code span or a value: counts as one wor
 MESSAGE_WORDS = 4  # fewest words of a message of C++
 LABEL_WORDS = 2  # fewest words of a label of Python
 
+
 @dataclass(frozen=True)
 class Text:
     """A paragraph, list item, heading, table cell, message or label, in one line."""
@@ -29,6 +30,7 @@ class Text:
             end = match.end()
         return Text(self.file, "".join(chars) + self.chars[end:], (*lines, *self.lines[end:]))
 
+
 @dataclass(frozen=True)
 class Hit:
     """A match of a rule."""
@@ -41,6 +43,7 @@ class Hit:
     counted: bool
     reason: str = ""  # why it is justified
 
+
 @dataclass(frozen=True)
 class LongSentence:
     """A sentence with more words than allowed."""
@@ -49,6 +52,7 @@ class LongSentence:
     line: int
     words: int
     text: str
+
 
 @dataclass(frozen=True)
 class Pattern:
@@ -63,6 +67,7 @@ class Pattern:
         """Return the advice for a match, with its first group inserted."""
         return self.advice.replace("$1", match.group(1)) if "$1" in self.advice else self.advice
 
+
 @dataclass(frozen=True)
 class Occurrence:
     """A rule on the number of matches in a sentence or a paragraph."""
@@ -74,6 +79,7 @@ class Occurrence:
     advice: str
     counted: bool
 
+
 @dataclass(frozen=True)
 class Rules:
     """All rules."""
@@ -84,6 +90,7 @@ class Rules:
     word: re.Pattern
     abbreviations: tuple[str, ...]
 
+
 @dataclass
 class Findings:
     """Hits and long sentences of a set of texts."""
@@ -91,6 +98,7 @@ class Findings:
     hits: list[Hit] = field(default_factory=list)
     long: list[LongSentence] = field(default_factory=list)
     unused: list[dict] = field(default_factory=list)  # justifications without a hit
+
 
 def read_rules(path):
     """Return the rules of a file."""
@@ -110,6 +118,7 @@ def read_rules(path):
             patterns.append(Pattern(rule["name"], re.compile(expression, flags), advice, rule["counted"]))
     return Rules(patterns, occurrences, table["max_words"], re.compile(table["word"]), tuple(table["abbreviations"]))
 
+
 def _joined(file, pieces):
     """Return a text of pieces (line, string) with single spaces, without code, marks and addresses."""
     chars, lines = "", []
@@ -121,6 +130,7 @@ def _joined(file, pieces):
     text = text.replaced(r"(`+).+?\1", CODE).replaced(r"\\?\$[^$]+\$", CODE)
     text = text.replaced(r"\]\([^)\s]*\)", "").replaced(r"<?https?://[^\s>)]+>?", CODE)
     return text.replaced(r"!?\[(?=\S)", "").replaced(r"\*+|(?<!\w)_+(?=\w)|(?<=\w)_+(?!\w)", "").replaced(r"\s+", " ")
+
 
 def _without_blocks(lines):
     """Yield the number and the string of each line; empty in code blocks, displayed formulas and comments."""
@@ -141,6 +151,7 @@ def _without_blocks(lines):
             yield number, ""
         else:
             yield number, line
+
 
 def texts_of_page(file, content):
     """Return the texts of a Markdown page."""
@@ -171,11 +182,13 @@ def texts_of_page(file, content):
     close()
     return texts
 
+
 _TOKENS = re.compile(
     r'//[^\n]*|/\*.*?\*/|#\s*include[^\n]*|(?:u8|[uUL])?R"(?P<mark>[^(\s]*)\((?P<raw>.*?)\)(?P=mark)"'
     r"|\"(?P<plain>(?:\\.|[^\"\\\n])*)\"|(?<!\w)'(?:\\.|[^'\\\n])+'|(?P<space>\s+)|.",
     re.DOTALL,
 )
+
 
 def _lines_of_string(file, pieces, fewest, rules):
     """Return a text for each line of a string that has enough words."""
@@ -193,6 +206,7 @@ def _lines_of_string(file, pieces, fewest, rules):
             found.append(text.replaced(r"\s+", " "))
     return found
 
+
 def texts_of_cpp(file, content, rules):
     """Return the messages of a C++ file: its string literals, joined where they adjoin."""
     texts, pieces = [], []
@@ -209,6 +223,7 @@ def texts_of_cpp(file, content, rules):
             texts += _lines_of_string(file, pieces, MESSAGE_WORDS, rules)
             pieces = []
     return texts + (_lines_of_string(file, pieces, MESSAGE_WORDS, rules) if pieces else [])
+
 
 def texts_of_python(file, content, rules):
     """Return the labels and messages of a Python file: its strings without those that document."""
@@ -230,6 +245,7 @@ def texts_of_python(file, content, rules):
         texts += _lines_of_string(file, pieces, LABEL_WORDS, rules)
     return texts
 
+
 def all_texts(root, rules, only=()):
     """Return the texts of the repository, or those of some of its files."""
     root = Path(root)
@@ -237,7 +253,9 @@ def all_texts(root, rules, only=()):
     pages = {*root.glob("*.md"), *(path for folder in folders for path in (root / folder).rglob("*.md"))}
     pages |= {path for form in ("scripts/*.md", "src/*/*.md", "tests/*/*.md") for path in root.glob(form)}
     sources = {*(root / "src").rglob("*.[ch]pp")}
-    sources |= {path for folder in ("python/thawslide", "qgis", "reproduction") for path in (root / folder).rglob("*.py")}
+    sources |= {
+        path for folder in ("python/thawslide", "qgis", "reproduction") for path in (root / folder).rglob("*.py")
+    }
     texts = []
     for path in sorted(pages | sources):
         file = path.relative_to(root).as_posix()
@@ -250,6 +268,7 @@ def all_texts(root, rules, only=()):
             texts += (texts_of_python if path.suffix == ".py" else texts_of_cpp)(file, content, rules)
     return texts
 
+
 def sentences(text, rules):
     """Yield begin and end of each sentence of a text."""
     begin = 0
@@ -261,13 +280,16 @@ def sentences(text, rules):
             begin = match.end()
     yield begin, len(text.chars)
 
+
 def words_in(chars, rules):
     """Return the number of words; a code span, a number and a compound count as one."""
     return len(rules.word.findall(re.sub(r"(?<=\w)[-.,'/](?=\w)", "", chars))) + len(re.findall(CODE + "+", chars))
 
+
 def _line_at(text, position):
     """Return the line of a position in a text."""
     return text.lines[min(position, len(text.lines) - 1)]
+
 
 def _reason(text, span, rule, justified, used):
     """Return the reason of the justification whose phrase contains the span."""
@@ -279,6 +301,7 @@ def _reason(text, span, rule, justified, used):
                 used.add(index)
                 return entry["reason"]
     return ""
+
 
 def findings(texts, rules, justified=()):
     """Return the hits and the long sentences in texts."""
@@ -311,15 +334,18 @@ def findings(texts, rules, justified=()):
     found.unused = [entry for index, entry in enumerate(justified) if index not in used]
     return found
 
+
 def group_of(file):
     """Return the entry of the limits to which a file belongs: itself for a page, its folder for code."""
     return file if file.endswith(".md") else str(Path(file).parent)
+
 
 def counts_of(found):
     """Return hits and long sentences of each group."""
     hits = Counter(group_of(hit.file) for hit in found.hits if hit.counted)
     long = Counter(group_of(sentence.file) for sentence in found.long)
     return {group: {"hits": hits[group], "long": long[group]} for group in sorted(hits.keys() | long.keys())}
+
 
 def risen(counts, limits):
     """Return a message for each count above its limit; a group without limits has zeros."""
@@ -331,6 +357,7 @@ def risen(counts, limits):
         if count[kind] > limits.get(group, {}).get(kind, 0)
     ]
 
+
 def lowered(counts, limits):
     """Return limits that are nowhere above the counts."""
     least = {
@@ -338,6 +365,7 @@ def lowered(counts, limits):
         for group, limit in limits.items()
     }
     return {group: limit for group, limit in sorted(least.items()) if any(limit.values())}
+
 
 def limits_text(limits):
     """Return limits as lines of TOML."""

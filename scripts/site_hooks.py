@@ -35,6 +35,7 @@ CAPITAL = re.compile(r"<mi>(&#x0039[1-9A-F];|&#x003A[0-9];)</mi>")
 FUNCTION = re.compile(r"<mi>([a-z]{2,})</mi>(?!<mo[^>]*>&#x00028;)")
 VARIANT = re.compile(r'<(mi|mn) mathvariant="(bold|bold-italic|script|double-struck)">(.*?)</\1>')
 
+
 def files_of_site():
     """Return the path in the site of each page and each file to which a page links, and the file itself."""
     listed = subprocess.run(
@@ -55,6 +56,7 @@ def files_of_site():
                 linked.add(str(path.relative_to(ROOT)))
     return {path: ROOT / path for path in linked & known} | pages
 
+
 def markdown_of(notebook):
     """Return a notebook as a page: its texts, its code, and the outputs stored in it."""
     parts = []
@@ -72,6 +74,7 @@ def markdown_of(notebook):
                 parts.append(f"```text\n{''.join(data['text/plain']).rstrip()}\n```")
     return "\n\n".join(parts) + "\n"
 
+
 def on_files(files, config):
     """Replace the files of docs_dir by those of the repository, and notebooks by pages."""
     theme = [file for file in files if file.src_dir != config.docs_dir]
@@ -82,6 +85,7 @@ def on_files(files, config):
         + [File.generated(config, path, abs_src_path=str(file)) for path, file in own.items()]
         + [File.generated(config, path, content=text) for path, text in pages.items()]
     )
+
 
 def on_page_markdown(markdown, **_):
     """Indent the contents of list items by four columns per level, as Python-Markdown requires; link to pages.
@@ -107,6 +111,7 @@ def on_page_markdown(markdown, **_):
             fence = not fence
     return "\n".join(lines) + "\n"
 
+
 def styled(match):
     """Return an element with a character of the variant, because browsers ignore the attribute."""
     name, variant, text = match.groups()
@@ -119,6 +124,7 @@ def styled(match):
         except KeyError:
             continue
     raise PluginError(f"no {variant} form of {letter} exists")
+
 
 def formula(match):
     """Return a formula in MathML, followed by its number."""
@@ -136,6 +142,7 @@ def formula(match):
         return drawn
     number = f"<span>({tag[1]})</span>" if tag else ""
     return f'<div class="formula"><div>{drawn}</div>{number}</div>'
+
 
 def on_page_content(content, page, **_):
     """Convert the formulas of a page."""

@@ -36,6 +36,7 @@ ROWS: dict[str, Callable[[frank.Figures], str]] = {
     "volume at the end (million m3)": lambda found: f"{found.volume:.1f}",
 }
 
+
 def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     """Return the numbers of both codes for each angle."""
     head = [""]
@@ -46,6 +47,7 @@ def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
         for words, text in ROWS.items()
     ]
     return markdown([head, *rows])
+
 
 def difference_table(
     found: dict[tuple[int, str], frank.Figures], differences: dict[tuple[int, str], frank.Difference]
@@ -62,6 +64,7 @@ def difference_table(
             + (f"{apart.overlap:.2f} | {100.0 * apart.moved:.0f} %" if apart else " | ")
         )
     return markdown(lines)
+
 
 @styled
 def deposits(
@@ -104,6 +107,7 @@ def deposits(
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
+
 @styled
 def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
     """Return the section area of the deposits along x, one panel per angle."""
@@ -130,6 +134,7 @@ def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
 
+
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     """Return the published values, and comparable values of both codes."""
     head = " | drop (m) | travel distance (m) | H/L | area (km2) | volume (million m3)"
@@ -140,6 +145,7 @@ def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
         for name, (drop, travel, area, volume) in ({"Frank slide, Mitchell et al. (2019)": PUBLISHED} | rows).items()
     ]
     return markdown([head, *lines])
+
 
 def write(place: Place) -> None:
     """Write the page and its figures from existing runs."""
@@ -175,10 +181,12 @@ def write(place: Place) -> None:
     }
     place.page("docs/frank.md").write_text(text_of("frank.md", parts), encoding="utf-8")
 
+
 def needs(place: Place) -> list[Path]:
     """Return the terrain, the pile and the results of SHALTOP."""
     data = place.data / "frank"
     return [data / name for name in ("Frankslide_topography.asc", "Frankslide_pile.asc", "shaltop")]
+
 
 STUDY = Study(
     "frank",

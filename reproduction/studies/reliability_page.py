@@ -17,9 +17,11 @@ KINDS = {
     ("short", "full"): "half of the data of that call is written, and nothing after it (disk full)",
 }
 
+
 def paragraph(text: str) -> str:
     """Return a paragraph, wrapped for a page."""
     return textwrap.fill(text, 118, break_on_hyphens=False, break_long_words=False) + "\n"
+
 
 def head() -> str:
     """Return the introduction of the page."""
@@ -30,6 +32,7 @@ def head() -> str:
         "continue a run that has stopped."
     )
 
+
 def findings_text(rows: list[dict[str, Any]]) -> str:
     """Return the list of findings; empty if there are none."""
     findings = [finding for row in rows for finding in row["findings"]]
@@ -37,6 +40,7 @@ def findings_text(rows: list[dict[str, Any]]) -> str:
         return ""
     lines = [f"- {finding}" for finding in findings[:20]]
     return f"\n{len(findings)} findings, of which:\n\n" + "\n".join(lines) + "\n"
+
 
 def kills_text(found: dict[str, Any]) -> str:
     """Return the section on killed runs."""
@@ -63,6 +67,7 @@ def kills_text(found: dict[str, Any]) -> str:
         + findings_text(rows)
     )
 
+
 def writes_text(found: dict[str, Any]) -> str:
     """Return the section on calls that fail."""
     rows = found["rows"]
@@ -84,6 +89,7 @@ def writes_text(found: dict[str, Any]) -> str:
         + findings_text(rows)
     )
 
+
 def corruption_text(found: dict[str, Any]) -> str:
     """Return the section on damaged checkpoints."""
     row = found["rows"][0]
@@ -96,6 +102,7 @@ def corruption_text(found: dict[str, Any]) -> str:
         )
         + findings_text(found["rows"])
     )
+
 
 def mistakes_text(found: dict[str, Any]) -> str:
     """Return the section on wrong case files."""
@@ -114,10 +121,12 @@ def mistakes_text(found: dict[str, Any]) -> str:
         + findings_text(found["rows"])
     )
 
+
 def commit_of(version: str) -> str:
     """Return the commit of a version."""
     named = re.search(r"commit (\w+)", version)
     return named.group(1)[:7] if named else version
+
 
 def fuzzing_text(found: dict[str, Any]) -> str:
     """Return the section on random input."""
@@ -147,6 +156,7 @@ def fuzzing_text(found: dict[str, Any]) -> str:
         + "".join(lines)
         + ("\n" + "".join(findings) if findings else "")
     )
+
 
 def soak_text(found: dict[str, Any]) -> str:
     """Return the section on a million steps."""
@@ -187,6 +197,7 @@ def soak_text(found: dict[str, Any]) -> str:
         )
     )
 
+
 TEXTS = {
     "kills": kills_text,
     "writes": writes_text,
@@ -196,6 +207,7 @@ TEXTS = {
     "soak": soak_text,
 }
 
+
 def duration_text(seconds: float) -> str:
     """Return a duration in whole minutes."""
     minutes = round(seconds / 60)
@@ -203,11 +215,13 @@ def duration_text(seconds: float) -> str:
         return "less than a minute"
     return f"{minutes} minute" if minutes == 1 else f"{minutes} minutes"
 
+
 def made_text(name: str, found: dict[str, Any]) -> str:
     """Return the version of the program and the run time of a part."""
     if name == "fuzzing":  # targets can be of different versions
         return f"{sum(row['seconds'] for row in found['rows']) / 3600:.1f} hours of processor time"
     return f"{found['version']}, {duration_text(found['wall_s'])}"
+
 
 def write_page(results: Path, page: Path) -> None:
     """Write the page; it names parts that have not been run."""

@@ -146,6 +146,7 @@ ELSEWHERE = """## Other tests
 - Experiments on friction at speed: not compared, because no published numbers are available.
 """
 
+
 def number(value: float, digits: int = 3) -> str:
     """Return a number with significant digits, without an exponent from 0.001 to 1e6."""
     text = f"{value:.{digits}g}"
@@ -155,6 +156,7 @@ def number(value: float, digits: int = 3) -> str:
     text = f"{float(text):,.{decimals}f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
 
+
 def digits_of(value: Record) -> int:
     """Return the significant digits of a value: three, or up to six if the allowed difference is smaller."""
     size = max(abs(value["found"]), abs(value["expected"]))
@@ -162,9 +164,11 @@ def digits_of(value: Record) -> int:
         return 3
     return min(6, max(3, 1 + math.floor(math.log10(size)) - math.floor(math.log10(value["allowed"]))))
 
+
 def programs(place: Place) -> tuple[tuple[str, str], ...]:
     """Return the programs, and their tests that are on the page."""
     return QUICK if place.is_quick else PROGRAMS
+
 
 def names_of(program: str, tests: str) -> list[str]:
     """Return the names of a program's tests, in order."""
@@ -178,12 +182,14 @@ def names_of(program: str, tests: str) -> list[str]:
             suite = line.strip()
     return names
 
+
 def records_in(place: Place) -> list[Record]:
     """Return the records of tests that have run, in the order of their tests."""
     order = {name: number for number, name in enumerate(n for each in programs(place) for n in names_of(*each))}
     lines = [line for file in sorted(place.runs.glob("*.jsonl")) for line in file.read_text().splitlines()]
     found = [json.loads(line) for line in lines]
     return sorted((each for each in found if each["test"] in order), key=lambda each: order[each["test"]])
+
 
 def tests(place: Place) -> list[Task]:
     """Return the test programs; each writes a file of records."""
@@ -201,8 +207,10 @@ def tests(place: Place) -> list[Task]:
         for program, names in programs(place)
     ]
 
+
 COLOURS = ("#D55E00", "#009E73", "#CC79A7", "#0072B2", "#E69F00")
 WIDTH, HEIGHT, DPI = 9.0, 3.6, 100  # inches, inches, dots per inch: figures are 900 dots wide
+
 
 def draw_curve(axis: Axes, curve: Record) -> None:
     """Plot computed values as points, and the exact curve."""
@@ -212,6 +220,7 @@ def draw_curve(axis: Axes, curve: Record) -> None:
     axis.plot(x, exact, color="#222222", linewidth=1.2, label=curve["reference"])
     axis.set_xlabel(curve["x_label"])
     axis.set_ylabel(curve["y_label"])
+
 
 def draw_orders(axis: Axes, orders: list[Record]) -> None:
     """Plot errors over resolution, with dotted lines of the expected order through the finest."""
@@ -227,6 +236,7 @@ def draw_orders(axis: Axes, orders: list[Record]) -> None:
     axis.xaxis.set_minor_formatter(mpl.ticker.NullFormatter())
     axis.set_xlabel(orders[0]["resolution"])
     axis.set_ylabel("error")
+
 
 def draw(record: Record, path: Path) -> bool:
     """Plot curves and convergence of a record; return whether it has any."""
@@ -249,6 +259,7 @@ def draw(record: Record, path: Path) -> bool:
         axis.legend(frameon=False, fontsize=8, loc=where, bbox_to_anchor=anchor)
     figure.savefig(path, dpi=DPI)
     return True
+
 
 def section(record: Record, name: str, place: Place) -> str:
     """Return the page's section of one record."""
@@ -280,6 +291,7 @@ def section(record: Record, name: str, place: Place) -> str:
         lines += [f"![errors and curves](verification/{name}.png)", ""]
     return "\n".join(lines) + "\n"
 
+
 def topic_of(record: Record) -> str:
     """Return the topic of a record."""
     suite = record["test"].split(".")[0]
@@ -287,6 +299,7 @@ def topic_of(record: Record) -> str:
         if suite in suites.split():
             return topic
     raise StudyError(f"{suite}: this suite has no topic. Add it to TOPICS in reproduction/studies/verification.py.")
+
 
 def overview(records: list[Record]) -> str:
     """Return the page with a row for each topic."""
@@ -299,6 +312,7 @@ def overview(records: list[Record]) -> str:
         rows.append(f"| [{topic}](verification-details.md#{anchor}) | {compared} | {cells} |\n")
     return OVERVIEW + "".join(rows)
 
+
 def appendix(records: list[Record], place: Place) -> str:
     """Plot the figures; return the page with a section for each record."""
     texts: dict[str, list[str]] = {topic: [] for topic in TOPICS}
@@ -310,6 +324,7 @@ def appendix(records: list[Record], place: Place) -> str:
     topics = (f"## {topic}\n\n" + "".join(sections) for topic, sections in texts.items() if sections)
     return OPENING + "".join(topics) + ELSEWHERE
 
+
 def stand_in(figures: Path) -> str:
     """Return the appendix without reports: each topic with its comparisons and the existing figures of its tests."""
     text = STAND_IN
@@ -319,10 +334,12 @@ def stand_in(figures: Path) -> str:
         text += "".join(f"![{name}](verification/{name}.png)\n\n" for name in found)
     return text
 
+
 def details_for_site() -> str:
     """Return the appendix of the last run of this study on this machine; without one, that without reports."""
     made = ROOT / "runs" / "pages" / "verification" / DETAILS
     return made.read_text(encoding="utf-8") if made.exists() else stand_in(ROOT / "docs" / "verification")
+
 
 def write(place: Place) -> None:
     """Write the pages and their figures from existing records."""
@@ -336,6 +353,7 @@ def write(place: Place) -> None:
     for figure in place.page("docs/verification/none.png").parent.glob("*.png"):
         if f"(verification/{figure.name})" not in details:
             figure.unlink()
+
 
 STUDY = Study(
     "verification",

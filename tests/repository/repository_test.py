@@ -32,10 +32,12 @@ GENERATED = {"docs/reference.md", "docs/verification-details.md"} | {
 LONGEST_FILE = 400  # lines
 LONGEST_LINE = 120  # characters, in documents; clang-format and ruff check the code
 
+
 def code_files(*folders: str) -> list[Path]:
     return sorted(
         path for folder in folders for kind in ("[ch]pp", "cu") for path in (ROOT / folder).rglob(f"*.{kind}")
     )
+
 
 def own_files() -> list[Path]:
     """Return text files of the project, without generated and built files."""
@@ -47,21 +49,28 @@ def own_files() -> list[Path]:
     built = {"__pycache__", ".pytest_cache", ".git"}  # .git is a file in a worktree
     return sorted(path for path in found if not built & set(path.parts))
 
+
 def documents() -> list[Path]:
-    forms = ["*.md", "docs/**/*.md", "cases/**/*.md", "benchmarks/**/*.md", "scripts/*.md", "src/*/*.md", "tests/*/*.md"]
-    return sorted(path for form in forms for path in ROOT.glob(form))
+    inside = [path for folder in ("docs", "cases", "benchmarks") for path in (ROOT / folder).rglob("*.md")]
+    own = [path for form in ("*.md", "scripts/*.md", "src/*/*.md", "tests/*/*.md") for path in ROOT.glob(form)]
+    return sorted([*own, *inside])
+
 
 def includes_of(text: str) -> list[str]:
     return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.MULTILINE)
 
+
 def module_of(include: str) -> str:
     return "generated" if include == "version.hpp" else include.split("/")[0]
+
 
 def heading_anchor(title: str) -> str:
     return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
 
+
 def place(path: Path) -> str:
     return str(path.relative_to(ROOT))
+
 
 def test_modules_are_those_of_the_table_without_a_cycle() -> None:
     assert {path.name for path in SOURCE.iterdir() if path.is_dir()} == set(ALLOWED)
@@ -70,6 +79,7 @@ def test_modules_are_those_of_the_table_without_a_cycle() -> None:
         free = {module for module, needs in left.items() if not needs & set(left)}
         assert free, f"these modules include one another: {sorted(left)}"
         left = {module: needs for module, needs in left.items() if module not in free}
+
 
 def test_modules_include_only_allowed_modules() -> None:
     wrong = []
@@ -83,17 +93,20 @@ def test_modules_include_only_allowed_modules() -> None:
     assert seen > 100
     assert wrong == []
 
+
 def test_includes_name_their_module_and_exist() -> None:
     for path in code_files("src", "tests/cpp"):
         for include in includes_of(path.read_text()):
             homes = [SOURCE / include, path.parent / include, ROOT / "tests" / "cpp" / include]
             assert include == "version.hpp" or any(home.is_file() for home in homes), f"{place(path)}: {include}"
 
+
 def test_only_base_names_the_parallel_backend() -> None:
     word = re.compile(r"#\s*pragma\s+omp|<omp\.h>|\bomp_\w+\(|std::thread\b|<thread>|<execution>")
     users = {place(path) for path in code_files("src") if word.search(path.read_text())}
     assert users
     assert {user for user in users if not user.startswith("src/base/")} == set()
+
 
 def test_physics_uses_no_arrays_input_or_output_and_names_its_source() -> None:
     allowed = {"cmath", "limits", "utility", "variant", "array"}
@@ -106,6 +119,7 @@ def test_physics_uses_no_arrays_input_or_output_and_names_its_source() -> None:
             f"{place(path)} cites no equation and no paper"
         )
 
+
 def test_physics_includes_only_device_code() -> None:
     reached = {place(path): path for path in code_files("src/physics")}
     waiting = list(reached.values())
@@ -117,6 +131,7 @@ def test_physics_includes_only_device_code() -> None:
     outside = {"src/base/linear.hpp", "src/base/portability.hpp", "src/base/select.hpp"}
     assert {name for name in reached if not name.startswith("src/physics/")} == outside
 
+
 def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
     word = re.compile(r"\bstd::(cout|cerr|clog)\b|\bfmt::print\b|\bprintf\(|\b(exit|_exit|abort|signal|sigaction)\(")
     for path in code_files("src"):
@@ -124,6 +139,7 @@ def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
             continue
         found = word.search(path.read_text())
         assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"
+
 
 def test_headers_have_a_guard_and_sources_a_purpose() -> None:
     for path in (path for path in code_files("src") if path.suffix == ".hpp"):
@@ -134,6 +150,7 @@ def test_headers_have_a_guard_and_sources_a_purpose() -> None:
         if not path.with_suffix(".hpp").exists():
             assert path.read_text().startswith("// "), f"{place(path)} has no header and no opening comment"
 
+
 @pytest.mark.parametrize(
     "path",
     code_files("src", "tests", "benchmarks")
@@ -142,6 +159,7 @@ def test_headers_have_a_guard_and_sources_a_purpose() -> None:
 )
 def test_files_are_not_too_long(path: Path) -> None:
     assert len(path.read_text().splitlines()) < LONGEST_FILE
+
 
 def test_no_todo_tabs_or_machine_paths() -> None:
     unfinished = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "X" * 3]) + r")\b")
@@ -162,6 +180,7 @@ def test_no_todo_tabs_or_machine_paths() -> None:
                 if found and not (path.suffix == ".csv" and name != "machine path"):
                     wrong.append(f"{place(path)}:{number}: {name}")
     assert wrong == []
+
 
 @pytest.mark.parametrize("path", documents(), ids=place)
 def test_document_lines_and_links(path: Path) -> None:
@@ -184,6 +203,7 @@ def test_document_lines_and_links(path: Path) -> None:
             titles = re.findall(r"^#+ (.+)$", there.read_text(), re.MULTILINE)
             assert anchor in {heading_anchor(title) for title in titles}, f"{place(path)} links to {target}"
 
+
 @pytest.mark.parametrize("folder", sorted(path for path in (ROOT / "cases").iterdir() if path.is_dir()), ids=place)
 def test_case_pages_have_the_same_sections_and_a_sketch(folder: Path) -> None:
     text = (folder / "README.md").read_text()
@@ -191,6 +211,7 @@ def test_case_pages_have_the_same_sections_and_a_sketch(folder: Path) -> None:
     assert re.findall(r"^## (.+)$", text, re.MULTILINE) == sections
     assert "](setup.svg)" in text and (folder / "setup.svg").is_file()
     assert f"- {place(folder)}/README.md" in (ROOT / "mkdocs.yml").read_text()
+
 
 def test_code_cites_sections_that_the_theory_has() -> None:
     pages = [ROOT / "docs" / "theory.md", *sorted((ROOT / "docs" / "theory").glob("*.md"))]
@@ -214,14 +235,17 @@ def test_code_cites_sections_that_the_theory_has() -> None:
             cited += 1
     assert cited > 0
 
+
 def names_in_backticks(path: Path) -> set[str]:
     return set(re.findall(r"`([^`\n]+)`", path.read_text()))
+
 
 def gtest_names() -> set[str]:
     """Return the C++ tests as `Suite.Test`."""
     macro = re.compile(r"\b(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)")
     texts = (path.read_text() for path in code_files("tests"))
     return {f"{suite}.{test}" for text in texts for suite, test in macro.findall(text)}
+
 
 def test_code_files_and_tests_that_pages_name_exist() -> None:
     files = {f"/{place(path)}" for path in code_files("src", "tests", "benchmarks")}
@@ -236,6 +260,7 @@ def test_code_files_and_tests_that_pages_name_exist() -> None:
         wrong += [f"{place(page)}: {name}" for name in named - tests]
     assert wrong == []
 
+
 def test_every_exit_code_is_documented() -> None:
     codes = re.search(r"enum class ExitCode[^{]*\{([^}]*)\}", (SOURCE / "base" / "error.hpp").read_text())
     assert codes
@@ -244,6 +269,7 @@ def test_every_exit_code_is_documented() -> None:
     page = ROOT / "scripts" / "command_line_page.md"
     assert set(numbers) <= set(re.findall(r"^\| (\d) \|", page.read_text(), re.MULTILINE))
 
+
 def test_run_and_test_print_help_and_refuse_wrong_options() -> None:
     helped = subprocess.run([ROOT / "run", "--help"], capture_output=True, text=True, timeout=600, check=False)
     assert helped.returncode == 0 and "--setup" in helped.stdout
@@ -251,6 +277,7 @@ def test_run_and_test_print_help_and_refuse_wrong_options() -> None:
     assert bare.returncode == 2 and "./run CASE" in bare.stderr
     refused = subprocess.run([ROOT / "test", "--fast"], capture_output=True, text=True, timeout=600, check=False)
     assert refused.returncode == 2 and "--full" in refused.stderr
+
 
 @pytest.mark.parametrize("script", ["run", "test", "scripts/setup", ".ci/run"])
 def test_script_can_be_started_and_parses(script: str) -> None:
