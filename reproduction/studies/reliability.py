@@ -1,4 +1,6 @@
-"""The page docs/reliability.md: runs that are killed, writing that fails, damaged files, and fuzzed readers.
+"""Reliability: runs that are killed, writing that fails, damaged files, and fuzzed readers.
+
+scripts/site makes the page docs/reliability.md from the committed results.
 
 Most of the time is fuzzing (scripts/fuzz). Parts that are not selected keep the results of their last run. The part
 fuzzing/TARGET selects one target.
@@ -12,7 +14,7 @@ from functools import partial
 from pathlib import Path
 
 from reproduction.engine import Task
-from reproduction.studies.reliability_page import TEXTS, write_page
+from reproduction.studies.reliability_page import TEXTS
 from reproduction.study import ROOT, Place, Study
 
 SCRIPT = Path(__file__).resolve().parent / "reliability_parts.py"
@@ -41,12 +43,10 @@ def part(place: Place, name: str) -> list[Task]:
 
 
 def write(place: Place) -> None:
-    """Write the page from the last results of all parts, which are committed next to it."""
+    """Copy the last results of all parts to the folder of committed results."""
     for name in TEXTS:
         if (made := place.runs / f"{name}.json").is_file():
             shutil.copy(made, place.page(f"docs/reliability/{name}.json"))
-    page = place.page("docs/reliability.md")
-    write_page(page.parent / "reliability", page)
 
 
 def needs(place: Place) -> list[Path]:
@@ -56,7 +56,7 @@ def needs(place: Place) -> list[Path]:
 
 STUDY = Study(
     "reliability",
-    ("docs/reliability.md",),
+    ("docs/reliability (results)",),
     600.0,
     write,
     tuple(partial(part, name=name) for name in TEXTS),

@@ -9,6 +9,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT), str(ROOT / "python")]
+
+from reproduction.studies.reliability_page import TEXTS, write_page  # noqa: E402
+
 PROGRAM = Path(os.environ.get("THAWSLIDE_BINARY", ROOT / "build" / "release" / "thawslide"))
 needs_program = pytest.mark.skipif(not PROGRAM.exists(), reason=f"there is no program {PROGRAM}")
 
@@ -47,3 +51,10 @@ def test_every_history_column_is_defined() -> None:
     columns |= {f"{name}_{axis}_N" for name in re.findall(r'"(\w+)_\{\}_N"', source) for axis in "xyz"}
     assert len(columns) > 35
     assert columns - set(re.findall(r"`([^`\n]+)`", call(PROGRAM, "describe", "--outputs"))) == set()
+
+
+def test_the_page_of_reliability_has_the_committed_results_of_all_parts(tmp_path: Path) -> None:
+    write_page(ROOT / "docs" / "reliability", tmp_path / "page.md")
+    text = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert len(re.findall(r"^## ", text, re.MULTILINE)) == len(TEXTS)
+    assert "has not been run" not in text and "200 of 200 ended with bitwise identical files" in text
