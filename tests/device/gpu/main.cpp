@@ -3,7 +3,7 @@
 //    thawslide_device_test --compare  small slides alone: for compute-sanitizer
 //    thawslide_device_test --speed N  speed of N particles alone, with the time of each stage
 //    thawslide_device_test --table    speed by size, up to the GPU's memory: first table of
-//    docs/explanation/gpu-backend.md
+//    docs/how-to/run-on-a-gpu.md
 //    thawslide_device_test --rehearse  as --compare, without a GPU: its threads are emulated on the CPU, in shuffled
 //    order
 // Exit codes: 0 bitwise identical, or differences of at most 1e-12 of each quantity's maximum (the output states

@@ -110,7 +110,7 @@ inline void print_row(const Measured& found) {
   std::fflush(stdout);
 }
 
-// Table of docs/explanation/gpu-backend.md as Markdown: each size elastic and yielding, up to the first that does not
+// Table of docs/how-to/run-on-a-gpu.md as Markdown: each size elastic and yielding, up to the first that does not
 // fit in memory.
 inline void print_table(const device::SolverFactory<3>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
