@@ -7,6 +7,7 @@ The DEM falls towards the east by 1 in 2. The area is a square of 200 m on it, 1
 import json
 import sqlite3
 import struct
+import zipfile
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
@@ -217,6 +218,26 @@ def shapefile(
     return file
 
 
+def without(ending: str) -> Callable[[Path], Path]:
+    """Return a function that writes a Shapefile whose part with this ending is lost."""
+
+    def write(file: Path) -> Path:
+        shapefile(file, [[ring(SQUARE)]]).with_suffix(ending).unlink()
+        return file
+
+    return write
+
+
+def zipped(file: Path) -> Path:
+    """Write a Shapefile with all its parts in one archive."""
+    shapefile(file.parent / "area.shp", [[ring(SQUARE)]])
+    with zipfile.ZipFile(file, "w") as archive:
+        for part in sorted(file.parent.glob("area.*")):
+            archive.write(part, part.name)
+            part.unlink()
+    return file
+
+
 def geojson(file: Path, kind: str, coordinates: Any, crs: str | None = CRS) -> Path:
     """Write one feature as GeoJSON; without a system, in longitude and latitude."""
     content: dict[str, Any] = {"type": "FeatureCollection"}
@@ -295,6 +316,11 @@ POLYGONS: dict[str, tuple[Callable[[Path], Path], Expected]] = {
     "multipatch.shp": (lambda file: shapefile(file, [[ring(SQUARE)]], kind=31), FULL),
     "deleted.shp": (lambda file: shapefile(file, [[ring(SQUARE)], [_FAR]], deleted=(1,)), FULL),
     "UPPER.SHP": (lambda file: shapefile(file, [[ring(SQUARE)]]), FULL),
+    "no-table.shp": (without(".dbf"), FULL),
+    "no-system.shp": (without(".prj"), FULL),
+    "no-index.shp": (without(".shx"), "the index of the Shapefile, no-index.shx, is missing"),
+    "packed.shp.zip": (zipped, FULL),
+    "packed.zip": (zipped, "the file cannot be opened"),
     "encoding.shp": (lambda file: shapefile(file, [[ring(SQUARE)]], name="Südflanke".encode("latin-1")), FULL),
     "hole.shp": (lambda file: shapefile(file, [_BOTH]), HOLED),
     "hole-alike.shp": (lambda file: shapefile(file, [_ALIKE]), HOLED),

@@ -18,6 +18,9 @@ from thawslide import Case, Simulation, UserError, scarp
 from thawslide.errors import ReportError
 from thawslide.scarps import Plane
 from thawslide.scarps.command import main as scarp_command
+from thawslide.scores.forecast import read_forecast
+from thawslide.scores.maps import overlap_areas
+from thawslide.scores.observed import Outline
 from thawslide.sweeps.probability_command import main as probability_command
 
 CENTRE = (odd.WEST + 105.0, odd.SOUTH + 305.0)  # of a cell
@@ -213,6 +216,15 @@ def scarp_function_with_polygons(reader: Reader, file: Path) -> float:
     return reader.scarp_function(reader.dem, file)
 
 
+def score_with_polygons(reader: Reader, file: Path) -> float:
+    """Return the observed area that a score compares with the maps of a run, times the thickness of the square."""
+    try:
+        areas, _ = overlap_areas(read_forecast(reader.case.parent / "run"), Outline(file, False, None), [])
+    except ReportError as error:
+        raise RefusedError(str(error)) from error
+    return float(areas[-1, :2].sum()) * odd.THICK
+
+
 def substrate_with_codes(reader: Reader, file: Path) -> float:
     return reader.substrate(substrate__ice__raster=file, substrate__ice__code=int(odd.THICK))
 
@@ -236,12 +248,14 @@ def section_with_line(reader: Reader, file: Path) -> float:
 
 @pytest.fixture(scope="module")
 def plain(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with a plain DEM, the surface before the release, polygons, and the case made of them."""
+    """Return a folder with a plain DEM, the surface before the release, polygons, the case made of them, and its run."""
     folder = tmp_path_factory.mktemp("plain")
     dem = odd.raster(folder / "dem.tif", odd.heights())
     odd.raster(folder / "before.tif", odd.heights() + odd.thickness())
     release = odd.geojson(folder / "release.geojson", "Polygon", [odd.ring(odd.SQUARE)])
     thawslide.ok("new", folder / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    words = sets(time__end=1e-3, grid__cell=20.0, maps__cell=odd.CELL)
+    thawslide.ok("run", folder / "slide", "--output", folder / "run", *words)
     return folder
 
 
@@ -261,7 +275,7 @@ WITH_THICKNESS = [
 ]  # fmt: skip
 WITH_POLYGONS = [
     new_with_polygons, check_with_polygons, simulation_with_polygons, substrate_with_polygons, scarp_with_polygons,
-    scarp_function_with_polygons,
+    scarp_function_with_polygons, score_with_polygons,
 ]  # fmt: skip
 WITH_LINE = [check_with_probe, block_with_path, section_with_line]
 Read = Callable[[Reader, Path], float]
