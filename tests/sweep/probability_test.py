@@ -108,3 +108,26 @@ def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.Capture
     (tmp_path / "empty").mkdir()
     assert main([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
     assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("values", "quantity", "is_noted"),
+    [
+        (np.linspace(1002.0, 1498.0, 12), "thickness", True),  # a DEM
+        (np.linspace(2.0, 400.0, 12), "thickness", True),  # near the sea
+        (np.linspace(0.0, 600.0, 12), "thickness", True),
+        (np.linspace(-1.0, 1.0, 12), "thickness", True),  # a difference
+        (np.linspace(1002.0, 1498.0, 12), "arrival", True),
+        (np.linspace(0.0, 900.0, 12), "speed", True),
+        (np.linspace(0.0, 300.0, 12), "thickness", False),
+        (np.where(np.arange(12) > 5, np.nan, 900.0), "arrival", False),
+    ],
+)  # fmt: skip
+def test_another_raster_than_a_map_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], values: Numbers, quantity: str, is_noted: bool
+) -> None:
+    plain = write(tmp_path / "plain.tif", np.where(np.arange(12) > 5, np.nan, 3.0).reshape(3, 4))
+    odd = write(tmp_path / "odd.tif", values.reshape(3, 4))
+    assert main([str(plain), str(odd), "--quantity", quantity, "--output", str(tmp_path / "out")]) == 0
+    noted = [line for line in capsys.readouterr().err.splitlines() if "such as a DEM" in line]
+    assert [str(odd) in line for line in noted] == [True] * is_noted

@@ -24,6 +24,7 @@ from thawslide.sweeps.raster_stack import MEMORY, RasterStack
 from thawslide.text_files import MEGABYTE, is_number, read_text
 
 QUANTILES = (0.1, 0.5, 0.9)
+_MOST = 500.0  # m or m/s: no slide has more
 REACHED = 0.1  # m: thickness above which a cell counts as reached, without a map of arrival times
 
 
@@ -103,7 +104,7 @@ def write_probability_maps(
             stack = RasterStack(files, QUANTITIES[name].kind)
             for note in stack.notes:
                 report(note)
-            written += _write(stack, QUANTITIES[name], outputs, output, memory)
+            written += _write(stack, QUANTITIES[name], outputs, output, memory, report)
     except OSError as error:
         raise ReportError(
             f"{error.filename or output}: cannot be written ({error.strerror or error}). Select another --output."
@@ -164,9 +165,15 @@ def _quantile_at(probability: float) -> Callable[[Numbers], Numbers]:
 
 
 def _write(
-    stack: RasterStack, quantity: Quantity, outputs: Sequence[_Output], folder: Path, memory: float
+    stack: RasterStack,
+    quantity: Quantity,
+    outputs: Sequence[_Output],
+    folder: Path,
+    memory: float,
+    report: Callable[[str], object],
 ) -> list[Path]:
     """Write the outputs of one quantity, window by window, and their styles."""
+    lowest, highest = np.full(len(stack.files), math.inf), np.full(len(stack.files), -math.inf)
     paths = [folder / f"{each.name}.tif" for each in outputs]
     low, high = [math.inf] * len(outputs), [0.0] * len(outputs)
     with contextlib.ExitStack() as open_files:
@@ -176,12 +183,19 @@ def _write(
         ]
         for window in stack.windows(memory):
             values = stack.read(window, quantity.missing)
+            lowest, highest = np.fmin(lowest, values.min((1, 2))), np.fmax(highest, values.max((1, 2)))
             for index, (each, file) in enumerate(zip(outputs, files, strict=True)):
                 found = each.compute(values)
                 shown = found[np.isfinite(found)]
                 if shown.size:
                     low[index], high[index] = min(low[index], shown.min()), max(high[index], shown.max())
                 write_window(file, window, found)
+    for path, least, most in zip(stack.files, lowest, highest, strict=True):
+        if quantity.missing not in (least, most) or least < 0.0 or _MOST < most < math.inf:
+            report(
+                f"note: {path}: the values are {least:,.4g} to {most:,.4g} {quantity.unit}: is it a map of "
+                f"{quantity.words}, or another raster, such as a DEM? Check the path."
+            )
     is_time = quantity.name == "arrival"
     for path, each, least, most in zip(paths, outputs, low, high, strict=True):
         begin = float(least) if is_time and not each.is_probability and math.isfinite(least) else 0.0
