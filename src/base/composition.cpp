@@ -1,7 +1,6 @@
 #include "base/composition.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <string_view>
 
 namespace thawslide {
@@ -51,21 +50,6 @@ constexpr Mark marks[] = {
 };
 // clang-format on
 
-// The letter of the first character; its length is that of valid UTF-8, and at least one byte.
-char32_t first_letter(std::string_view text, std::size_t& length) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  length = lead < 0xC0 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  if (length == 1 || length > text.size()) {
-    length = 1;
-    return lead < 0x80 ? lead : 0;
-  }
-  char32_t letter = lead & (0xFF >> (length + 1));
-  for (std::size_t k = 1; k < length; ++k) {
-    letter = letter << 6 | (static_cast<unsigned char>(text[k]) & 0x3F);
-  }
-  return letter;
-}
-
 // Letter with a mark; 0 if there is none.
 char32_t composed(char32_t letter, char32_t sign) {
   const Mark* const mark =
@@ -78,32 +62,40 @@ char32_t composed(char32_t letter, char32_t sign) {
   return 0;
 }
 
-std::string utf8(char32_t letter) {
-  const auto part = [&](int shift) { return static_cast<char>(0x80 | (letter >> shift & 0x3F)); };
-  return letter < 0x800 ? std::string{static_cast<char>(0xC0 | letter >> 6), part(0)}
-                        : std::string{static_cast<char>(0xE0 | letter >> 12), part(6), part(0)};
-}
-
 }  // namespace
 
 std::string composed(const std::string& text) {
-  std::string result;
-  std::size_t last = 0;  // where the last letter of the result begins
-  for (std::size_t at = 0, length = 0; at < text.size(); at += length) {
-    const char32_t sign = first_letter(std::string_view(text).substr(at), length);
-    std::size_t ignored = 0;
-    const char32_t letter = sign < 0x300 || result.empty()
-                                ? 0
-                                : composed(first_letter(std::string_view(result).substr(last), ignored), sign);
-    if (letter != 0) {
-      result.resize(last);
-      result += utf8(letter);
-    } else {
-      last = result.size();
-      result.append(text, at, length);
+  std::u32string result;
+  try {
+    for (const char32_t letter : std::filesystem::path(text).u32string()) {  // from UTF-8
+      const char32_t both = result.empty() ? 0 : composed(result.back(), letter);
+      if (both == 0) {
+        result += letter;
+      } else {
+        result.back() = both;
+      }
+    }
+  } catch (const std::filesystem::filesystem_error&) {
+    return text;
+  }
+  return std::filesystem::path(result).string();
+}
+
+std::filesystem::path in_any_composition(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!path.has_relative_path() || fs::exists(path, error)) {
+    return path;
+  }
+  const fs::path folder = in_any_composition(path.parent_path());
+  const std::string name = composed(path.filename().string());
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (composed(entry->path().filename().string()) == name) {
+      return folder / entry->path().filename();
     }
   }
-  return result;
+  return path;
 }
 
 }  // namespace thawslide

@@ -34,22 +34,6 @@ std::string likely_unit(const Rule& rule, double found) {
   return "";
 }
 
-// A file that exists, or one in its folder whose name differs only in the composition of its letters.
-std::filesystem::path in_any_composition(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::exists(file, error)) {
-    return file;
-  }
-  const std::string name = composed(file.filename().string());
-  for (std::filesystem::directory_iterator entry(file.parent_path(), error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (composed(entry->path().filename().string()) == name) {
-      return entry->path();
-    }
-  }
-  return file;
-}
-
 // Suggestion for a missing file, such as "; did you mean 'profile.csv'?": one in its folder with the same ending. Empty
 // if none is similar.
 std::string similar_file(const std::filesystem::path& file) {

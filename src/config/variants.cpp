@@ -99,7 +99,7 @@ std::optional<fs::path> base_of(const toml::table& root, const std::vector<CaseF
   const std::string location =
       fmt::format("{}:{}:{}: case.based_on is \"{}\"", file.string(), begin.line, begin.column, shown(text->get()));
   const fs::path name(text->get());
-  const fs::path base = file.parent_path() / name;
+  const fs::path base = in_any_composition(file.parent_path() / name);
   if (name.has_parent_path()) {
     throw UserError(location + ", which is a path; allowed: the name of a case file of the same folder.");
   }

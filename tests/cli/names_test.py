@@ -6,6 +6,7 @@ import tomllib
 import unicodedata
 from pathlib import Path
 
+import odd_files as odd
 import pytest
 from conftest import PROFILE, Program, Ran, Slope, sets
 from terrain_files import SOUTH, WEST, write_dem, write_line, write_rectangle, write_release
@@ -82,11 +83,38 @@ def test_names_are_equal_in_any_composition(
     slope.ok(folder=tmp_path / "slide")
     name, other = (unicodedata.normalize(form, "Südhang Gürtelé") for form in (written, stored))
     assert name != other
-    release = write_rectangle(tmp_path / f"{other}.geojson", WEST + 200.0, SOUTH + 250.0, **{other: 24.0})
+    (tmp_path / other).mkdir()
+    release = write_rectangle(tmp_path / other / f"{other}.geojson", WEST + 200.0, SOUTH + 250.0, **{other: 24.0})
     release.write_text(release.read_text().replace('"slide"', f'"{other}"'), encoding="utf-8")
     keys = sets(
-        body__slide__release=tmp_path / f"{name}.geojson", body__slide__thickness=f'{{ attribute = "{name}" }}',
+        body__slide__release=tmp_path / name / f"{name}.geojson", body__slide__thickness=f'{{ attribute = "{name}" }}',
         body__slide__polygons=f'["{name}"]',
     )  # fmt: skip
-    checked = thawslide.json("check", tmp_path / "slide", *keys)
+    (tmp_path / "slide" / "case.toml").rename(tmp_path / "slide" / f"{other}.toml")
+    (tmp_path / "slide" / "case.toml").write_text(f'case.based_on = "{name}.toml"\n', encoding="utf-8")
+    (tmp_path / "slide").rename(tmp_path / other / other)
+    checked = thawslide.json("check", tmp_path / name / name, *keys)
     assert checked["bodies"][0]["volume_m3"] == pytest.approx(288_000.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("encoding", "page", "stated"),
+    [
+        ("latin-1", 0, ""), ("latin-1", 0x57, ""), ("cp1252", 0x03, ""), ("cp850", 0x02, ""), ("cp852", 0x64, ""),
+        ("utf-8", 0, ""), ("utf-8", 0, "UTF-8"), ("latin-1", 0, "ISO-8859-1"), ("cp1250", 0, "1250"),
+    ],
+)  # fmt: skip
+def test_names_have_the_encoding_of_their_shapefile(
+    thawslide: Program, tmp_path: Path, encoding: str, page: int, stated: str
+) -> None:
+    """`page`: code page in the table of attributes; `stated`: text of the .cpg file; without both, the likely one."""
+    release = odd.shapefile(
+        tmp_path / "area.shp", [[odd.ring(odd.SQUARE)]], name="Südflanke".encode(encoding), page=page
+    )
+    if stated:
+        release.with_suffix(".cpg").write_text(stated)
+    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
+    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    assert "400,000 m3" in thawslide.ok("check", tmp_path / "slide", "--set", 'body.slide.polygons=["Südflanke"]')
+    message = thawslide.error("check", tmp_path / "slide", "--set", 'body.slide.polygons=["Sudflanke"]')
+    assert "the file has: Südflanke; did you mean 'Südflanke'?" in message
