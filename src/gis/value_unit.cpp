@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
@@ -16,129 +17,60 @@ namespace {
 
 constexpr double survey_foot = 1200.0 / 3937.0;  // m, US survey foot
 
-// Spelling in lower case, without spaces, points, brackets, underscores and hyphens.
-struct Spelling {
-  const char* word;
+// Spellings in lower case, without spaces, points, brackets, underscores and hyphens, and the conversion to the unit of
+// the computation.
+struct Unit {
+  Quantity quantity;
+  std::string_view spellings;
   double factor, offset = 0.0;
 };
 
-constexpr Spelling lengths[] = {
-    {"m", 1.0},
-    {"metre", 1.0},
-    {"metres", 1.0},
-    {"meter", 1.0},
-    {"meters", 1.0},
-    {"masl", 1.0},
-    {"mamsl", 1.0},
-    {"mm", 1e-3},
-    {"millimetre", 1e-3},
-    {"millimetres", 1e-3},
-    {"millimeter", 1e-3},
-    {"millimeters", 1e-3},
-    {"cm", 1e-2},
-    {"centimetre", 1e-2},
-    {"centimetres", 1e-2},
-    {"centimeter", 1e-2},
-    {"centimeters", 1e-2},
-    {"dm", 0.1},
-    {"decimetre", 0.1},
-    {"decimetres", 0.1},
-    {"decimeter", 0.1},
-    {"decimeters", 0.1},
-    {"km", 1e3},
-    {"kilometre", 1e3},
-    {"kilometres", 1e3},
-    {"kilometer", 1e3},
-    {"kilometers", 1e3},
-    {"in", 0.0254},
-    {"inch", 0.0254},
-    {"inches", 0.0254},
-    {"ft", 0.3048},
-    {"foot", 0.3048},
-    {"feet", 0.3048},
-    {"internationalfoot", 0.3048},
-    {"internationalfeet", 0.3048},
-    {"footintl", 0.3048},
-    {"yd", 0.9144},
-    {"yard", 0.9144},
-    {"yards", 0.9144},
-    {"usft", survey_foot},
-    {"ftus", survey_foot},
-    {"footus", survey_foot},
-    {"usfoot", survey_foot},
-    {"usfeet", survey_foot},
-    {"ussurveyft", survey_foot},
-    {"ussurveyfoot", survey_foot},
-    {"ussurveyfeet", survey_foot},
-    {"footussurvey", survey_foot},
-    {"surveyfoot", survey_foot},
-    {"surveyfeet", survey_foot},
-};
-
-constexpr double kelvin_offset = -273.15, fahrenheit_factor = 5.0 / 9.0, fahrenheit_offset = -160.0 / 9.0;
-
-constexpr Spelling temperatures[] = {
-    {"c", 1.0},
-    {"°c", 1.0},
-    {"degc", 1.0},
-    {"celsius", 1.0},
-    {"degreecelsius", 1.0},
-    {"degreescelsius", 1.0},
-    {"k", 1.0, kelvin_offset},
-    {"kelvin", 1.0, kelvin_offset},
-    {"degk", 1.0, kelvin_offset},
-    {"degreekelvin", 1.0, kelvin_offset},
-    {"degreeskelvin", 1.0, kelvin_offset},
-    {"f", fahrenheit_factor, fahrenheit_offset},
-    {"°f", fahrenheit_factor, fahrenheit_offset},
-    {"degf", fahrenheit_factor, fahrenheit_offset},
-    {"fahrenheit", fahrenheit_factor, fahrenheit_offset},
-    {"degreefahrenheit", fahrenheit_factor, fahrenheit_offset},
-    {"degreesfahrenheit", fahrenheit_factor, fahrenheit_offset},
-};
-
-constexpr Spelling fractions[] = {
-    {"1", 1.0},    {"fraction", 1.0}, {"ratio", 1.0},    {"m3/m3", 1.0},
-    {"m3m3", 1.0}, {"%", 0.01},       {"percent", 0.01}, {"percentage", 0.01},
-};
-
 // clang-format off
-constexpr Spelling speeds[] = {
-    {"m/s", 1.0}, {"ms1", 1.0}, {"mps", 1.0}, {"cm/s", 0.01}, {"mm/s", 1e-3}, {"km/h", 1.0 / 3.6}, {"kmh", 1.0 / 3.6},
-    {"kmh1", 1.0 / 3.6}, {"kph", 1.0 / 3.6}, {"ft/s", 0.3048}, {"mph", 0.44704}, {"mi/h", 0.44704}, {"kn", 1852.0 / 3600},
-};
-
-constexpr Spelling times[] = {
-    {"s", 1.0}, {"sec", 1.0}, {"second", 1.0}, {"seconds", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"minute", 60.0},
-    {"minutes", 60.0}, {"h", 3600.0}, {"hr", 3600.0}, {"hour", 3600.0}, {"hours", 3600.0},
+constexpr Unit units[] = {
+    {Quantity::length, "m metre metres meter meters masl mamsl", 1.0},
+    {Quantity::length, "mm millimetre millimetres millimeter millimeters", 1e-3},
+    {Quantity::length, "cm centimetre centimetres centimeter centimeters", 1e-2},
+    {Quantity::length, "dm decimetre decimetres decimeter decimeters", 0.1},
+    {Quantity::length, "km kilometre kilometres kilometer kilometers", 1e3},
+    {Quantity::length, "in inch inches", 0.0254},
+    {Quantity::length, "ft foot feet internationalfoot internationalfeet footintl", 0.3048},
+    {Quantity::length, "yd yard yards", 0.9144},
+    {Quantity::length, "usft ftus footus usfoot usfeet ussurveyft ussurveyfoot ussurveyfeet footussurvey surveyfoot "
+                       "surveyfeet", survey_foot},
+    {Quantity::temperature, "c °c degc celsius degreecelsius degreescelsius", 1.0},
+    {Quantity::temperature, "k kelvin degk degreekelvin degreeskelvin", 1.0, -273.15},
+    {Quantity::temperature, "f °f degf fahrenheit degreefahrenheit degreesfahrenheit", 5.0 / 9.0, -160.0 / 9.0},
+    {Quantity::fraction, "1 fraction ratio m3/m3 m3m3", 1.0}, {Quantity::fraction, "% percent percentage", 0.01},
+    {Quantity::speed, "m/s ms1 mps", 1.0}, {Quantity::speed, "cm/s", 0.01}, {Quantity::speed, "mm/s", 1e-3},
+    {Quantity::speed, "km/h kmh kmh1 kph", 1.0 / 3.6}, {Quantity::speed, "ft/s", 0.3048},
+    {Quantity::speed, "mph mi/h", 0.44704}, {Quantity::speed, "kn", 1852.0 / 3600},
+    {Quantity::time, "s sec second seconds", 1.0}, {Quantity::time, "ms", 1e-3},
+    {Quantity::time, "min minute minutes", 60.0}, {Quantity::time, "h hr hour hours", 3600.0},
 };
 // clang-format on
 
-struct UnitsOfQuantity {
-  const Spelling* begin;
-  const Spelling* end;
+struct TextsOfQuantity {
   const char* of;       // quantity of the unit
   const char* allowed;  // examples of allowed units
   const char* own;      // unit of the computation, for messages
   const char* short_own;
 };
 
-UnitsOfQuantity units_of(Quantity quantity) {
+TextsOfQuantity texts_of(Quantity quantity) {
   switch (quantity) {
     case Quantity::temperature:
-      return {std::begin(temperatures), std::end(temperatures), "temperature", "C, K, F", "degrees Celsius", "C"};
+      return {"temperature", "C, K, F", "degrees Celsius", "C"};
     case Quantity::fraction:
-      return {std::begin(fractions), std::end(fractions), "fraction", "1, %", "fractions of 1", "1"};
+      return {"fraction", "1, %", "fractions of 1", "1"};
     case Quantity::speed:
-      return {std::begin(speeds), std::end(speeds), "speed", "m/s, cm/s, mm/s, km/h, ft/s, mph, kn", "m/s", "m/s"};
+      return {"speed", "m/s, cm/s, mm/s, km/h, ft/s, mph, kn", "m/s", "m/s"};
     case Quantity::time:
-      return {std::begin(times), std::end(times), "time", "s, ms, min, h", "seconds", "s"};
+      return {"time", "s, ms, min, h", "seconds", "s"};
     case Quantity::length:
     case Quantity::code:
       break;
   }
-  return {
-      std::begin(lengths), std::end(lengths), "length", "m, mm, cm, dm, km, in, ft, US survey foot, yd", "metres", "m"};
+  return {"length", "m, mm, cm, dm, km, in, ft, US survey foot, yd", "metres", "m"};
 }
 
 std::string simplified(const std::string& unit) {
@@ -158,18 +90,19 @@ bool states_nothing(const std::string& unit) {
   return simple.empty() || simple == "unknown" || simple == "unspecified" || simple == "none";
 }
 
-std::optional<Spelling> known_unit(const std::string& unit, const UnitsOfQuantity& units) {
-  const std::string simple = simplified(unit);
-  const Spelling* const found =
-      std::find_if(units.begin, units.end, [&](const Spelling& each) { return each.word == simple; });
-  return found == units.end ? std::nullopt : std::optional<Spelling>(*found);
+std::optional<Unit> known_unit(const std::string& unit, Quantity quantity) {
+  const std::string word = " " + simplified(unit) + " ";
+  const Unit* const found = std::find_if(std::begin(units), std::end(units), [&](const Unit& each) {
+    return each.quantity == quantity && fmt::format(" {} ", each.spellings).find(word) != std::string::npos;
+  });
+  return found == std::end(units) ? std::nullopt : std::optional<Unit>(*found);
 }
 
-[[noreturn]] void fail_with_unit(const StatedUnits& stated, const UnitsOfQuantity& units) {
+[[noreturn]] void fail_with_unit(const StatedUnits& stated, const TextsOfQuantity& texts) {
   throw UserError(fmt::format(
       "{}: the unit of the values is '{}'; allowed: a unit of {} ({}). Check that it is the right file, or "
       "state the unit that the values have: gdal_edit.py -units {} {}",
-      stated.file, config::shown(stated.band), units.of, units.allowed, units.short_own, shell_quote(stated.file)));
+      stated.file, config::shown(stated.band), texts.of, texts.allowed, texts.short_own, shell_quote(stated.file)));
 }
 
 void check_that_both_agree(const StatedUnits& stated, double band_metres) {
@@ -182,8 +115,7 @@ void check_that_both_agree(const StatedUnits& stated, double band_metres) {
   }
 }
 
-UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, const Spelling& found,
-                            const char* own) {
+UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, const Unit& found, const char* own) {
   UnitConversion conversion{found.factor, found.offset, ""};
   if (found.factor != 1.0 || found.offset != 0.0) {
     conversion.warning = fmt::format("note: {} states the unit '{}': its values were converted to {}",
@@ -195,7 +127,7 @@ UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, 
 }  // namespace
 
 UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
-  const UnitsOfQuantity units = units_of(quantity);
+  const TextsOfQuantity texts = texts_of(quantity);
   // GDAL reports the vertical unit for a band without a unit, whatever the band measures.
   const bool is_vertical = states_nothing(stated.band) || stated.band == stated.vertical;
   if (quantity == Quantity::code || (is_vertical && quantity != Quantity::length)) {
@@ -204,16 +136,16 @@ UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   if (is_vertical) {
     return states_nothing(stated.vertical)
                ? UnitConversion{}
-               : with_warning(stated, stated.vertical, {"", stated.vertical_metres}, units.own);
+               : with_warning(stated, stated.vertical, {quantity, "", stated.vertical_metres}, texts.own);
   }
-  const std::optional<Spelling> found = known_unit(stated.band, units);
+  const std::optional<Unit> found = known_unit(stated.band, quantity);
   if (!found) {
-    fail_with_unit(stated, units);
+    fail_with_unit(stated, texts);
   }
   if (quantity == Quantity::length) {
     check_that_both_agree(stated, found->factor);
   }
-  return with_warning(stated, stated.band, *found, units.own);
+  return with_warning(stated, stated.band, *found, texts.own);
 }
 
 }  // namespace thawslide::gis
