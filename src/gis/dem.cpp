@@ -114,9 +114,8 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
     check_elevations(file.file(), read);
     return read;
   });
-  if (const std::string warning = pits_warning(file.file(), raster); !warning.empty()) {
-    warnings.push_back(warning);
-  }
+  add_warning(pits_warning(file.file(), raster), warnings);
+  add_warning(thickness_warning(file.file(), raster), warnings);
   if (as_it_is) {
     return raster;
   }
@@ -162,6 +161,7 @@ Raster read_dem(const std::string& file, const std::string& crs, std::vector<std
   add_warning(opened.conversion().warning, warnings);
   Raster raster = opened.read();
   check_elevations(file, raster);
+  add_warning(thickness_warning(file, raster), warnings);
   raster.crs = system;
   return raster;
 }

@@ -141,4 +141,16 @@ std::string pits_warning(const std::string& file, const Raster& ground) {
       most.x, most.y, value, file);
 }
 
+std::string thickness_warning(const std::string& file, const Raster& ground) {
+  const auto& values = ground.values;
+  const auto zeros = std::count(values.begin(), values.end(), 0.0);
+  const auto known = std::count_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+  return 2 * zeros <= known
+             ? ""
+             : fmt::format(
+                   "{}: {} of {} elevations are 0: is it a raster of the thickness, swapped with the DEM? If it "
+                   "is, correct the path",
+                   std::filesystem::path(file).filename().string(), zeros, known);
+}
+
 }  // namespace thawslide::gis

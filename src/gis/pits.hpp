@@ -1,4 +1,4 @@
-// DEM points with undeclared no-data values.
+// DEM points with undeclared no-data values, and rasters that are no DEM.
 #pragma once
 
 #include <string>
@@ -11,5 +11,8 @@ namespace thawslide::gis {
 // patch counts if all adjacent ground is more than 100 m higher or lower, with a slope steeper than 80 degrees: no lake
 // or sea has such a shore all around. A single point counts if it is 0.
 [[nodiscard]] std::string pits_warning(const std::string& file, const Raster& ground);
+
+// Warning about a raster that is 0 at most points, as a thickness is; empty if it is not.
+[[nodiscard]] std::string thickness_warning(const std::string& file, const Raster& ground);
 
 }  // namespace thawslide::gis
