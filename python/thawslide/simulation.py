@@ -83,7 +83,8 @@ class Simulation:
         require_threads(threads)
         self.case = case.copy() if isinstance(case, Case) else Case(case)
         self.threads = threads
-        self._core = _core.make_live_run(self.case._core, _Messages(on_message), threads)
+        self._messages = _Messages(on_message)
+        self._core = _core.make_live_run(self.case._core, self._messages, threads)
         self._failed = False
         if basal_law is not None and not self._core.has_basal_law:
             raise _core.UserError(

@@ -79,6 +79,16 @@ class ThreadScope {
   int before_;
 };
 
+// Result of work() without the GIL, with the exceptions of the observer.
+template <class Work>
+auto computed(PythonObserver& observer, int threads, const Work& work) {
+  return observer.result_of([&] {
+    const nb::gil_scoped_release released;
+    const ThreadScope scope(threads);
+    return work();
+  });
+}
+
 // Live run for Python, which one thread at a time uses: its methods release the GIL.
 class Live {
  public:
@@ -94,9 +104,7 @@ class Live {
       std::atomic<bool>& is_in_use;
       ~Release() { is_in_use = false; }
     } const release{is_in_use_};
-    const nb::gil_scoped_release released;
-    const ThreadScope scope(threads);
-    return observer_.result_of([&] { return work(*live_); });
+    return computed(observer_, threads, [&] { return work(*live_); });
   }
 
   // Advances until a simulated time, for a number of steps, or for a wall-clock time, whichever comes first. law: None,
@@ -271,43 +279,27 @@ NB_MODULE(_core, module) {
       .def("change", [](Live& self, const config::Case& next, const std::vector<std::string>& sets, int threads) {
         self.use(threads, [&](run::LiveRun& live) { live.change(next, sets); });
       });
-  module.def(
-      "make_live_run",
-      [](const config::Case& parameters, PythonObserver& observer, int threads) {
-        std::unique_ptr<run::LiveRun> live = observer.result_of([&] {
-          const nb::gil_scoped_release released;
-          const ThreadScope scope(threads);
-          return run::make_live_run(parameters, observer);
-        });
-        return std::make_unique<Live>(std::move(live), observer);
-      },
-      nb::keep_alive<0, 2>());
+  // The caller keeps the observer: a reference from here would be invisible to the garbage collector of Python.
+  module.def("make_live_run", [](const config::Case& parameters, PythonObserver& observer, int threads) {
+    return std::make_unique<Live>(computed(observer, threads, [&] { return run::make_live_run(parameters, observer); }),
+                                  observer);
+  });
   // Both return the exit code of the command line, and rethrow an exception that interrupted the run.
   module.def("start_run", [](const config::Case& parameters, const std::string& folder, bool overwrite,
                              const std::string& device, int threads, PythonObserver& observer) {
-    return observer.result_of([&] {
-      const nb::gil_scoped_release released;
-      const ThreadScope scope(threads);
+    return computed(observer, threads, [&] {
       return run::start_run(parameters, {folder, overwrite, device}, observer);
     });
   });
   module.def("resume_run", [](const std::string& folder, const std::vector<std::string>& sets,
                               const std::string& device, int threads, PythonObserver& observer) {
-    return observer.result_of([&] {
-      const nb::gil_scoped_release released;
-      const ThreadScope scope(threads);
-      return run::resume_run({folder, sets, device}, observer);
-    });
+    return computed(observer, threads, [&] { return run::resume_run({folder, sets, device}, observer); });
   });
   module.def("run_folder", [](const config::Case& parameters) { return run::usual_run_folder(parameters).string(); });
   module.def(
       "block",
       [](const config::Case& parameters, PythonObserver& observer, int threads) {
-        return columns_of(observer.result_of([&] {
-          const nb::gil_scoped_release released;
-          const ThreadScope scope(threads);
-          return run::block_rows(parameters, observer);
-        }));
+        return columns_of(computed(observer, threads, [&] { return run::block_rows(parameters, observer); }));
       },
       nb::sig("def block(parameters: Case, observer: Observer, threads: int, /) -> dict[str, object]"));
 }
