@@ -9,12 +9,12 @@
 
 namespace thawslide::config {
 
-// Time at which ground loses its cohesion [s]; 0 if it does so by slip, or not at all.
+// Time at which ground loses its cohesion [s]; 0 if it does so by slip, or does not.
 inline double cohesion_loss_time(const GroundStrength& ground) {
   return std::visit(
       [](const auto& law) {
         if constexpr (requires { law.loss_time; }) {
-          return static_cast<double>(law.loss_time);
+          return law.initial == law.residual ? 0.0 : static_cast<double>(law.loss_time);
         } else {
           return 0.0;
         }

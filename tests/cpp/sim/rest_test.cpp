@@ -161,13 +161,23 @@ TEST(Rest, BeginsAfterTheLastScheduledEvent) {
 }
 
 // The last entries of a table repeat a value until the end of the run.
-TEST(Rest, IsNotDelayedByEntriesOfATableThatChangeNothing) {
-  const auto last_change = [](const std::string& thickness) {
-    return config::last_scheduled_event(paper_case(block + Sets("band.thickness={ " + thickness + " }")));
-  };
-  EXPECT_EQ(last_change("time=[0, 1, 1, 5], value=[0.05, 0.05, 0.5, 0.5]"), 1.0);
-  EXPECT_EQ(last_change("time=[0, 1, 5], value=[0.05, 0.05, 0.5]"), 5.0);
-  EXPECT_EQ(last_change("time=[0, 5], value=[0.05, 0.05]"), 0.0);
+TEST(Rest, IsDelayedByWhatIsScheduledAndByNothingElse) {
+  const std::string lost = "cohesion_law='time'; basal.cohesion_loss_time=3", ice = "substrate.ice.";
+  const std::pair<std::string, double> changes[] = {
+      {"basal.cohesion=1e5; basal." + lost, 3.0},
+      {"basal.cohesion=1e5; basal.residual_cohesion=1e5; basal." + lost, 0.0},
+      {"basal." + lost, 0.0},
+      {"basal.cohesion=1e5; basal.cohesion_law='constant'", 0.0},
+      {ice + "x_min=10; " + ice + "friction_angle=11; " + ice + "cohesion=1e5; " + ice + "cohesion_law='time'; " + ice +
+           "cohesion_loss_time=4",
+       4.0},
+      {"band.thickness={ time=[0, 1, 1, 5], value=[0.05, 0.05, 0.5, 0.5] }", 1.0},
+      {"band.thickness={ time=[0, 1, 5], value=[0.05, 0.05, 0.5] }", 5.0},
+      {"band.thickness={ time=[0, 5], value=[0.05, 0.05] }", 0.0},
+      {"band.thickness=0.05", 0.0}};
+  for (const auto& [sets, time] : changes) {
+    EXPECT_EQ(config::last_scheduled_event(paper_case(block + Sets(sets))), time) << sets;
+  }
 }
 
 TEST(Rest, OfABodyThatHasNotMovedIsNamedSo) {
