@@ -142,15 +142,22 @@ std::string pits_warning(const std::string& file, const Raster& ground) {
 }
 
 std::string thickness_warning(const std::string& file, const Raster& ground) {
-  const auto& values = ground.values;
-  const auto zeros = std::count(values.begin(), values.end(), 0.0);
-  const auto known = std::count_if(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
-  return 2 * zeros <= known
+  for (int row = 0; row < ground.rows; ++row) {
+    const bool is_end = row == 0 || row + 1 == ground.rows;
+    for (int column = 0; column < ground.columns; column += is_end ? 1 : std::max(1, ground.columns - 1)) {
+      if (const double value = ground.at(column, row); value != 0.0 && !std::isnan(value)) {
+        return "";
+      }
+    }
+  }
+  const auto is_height = [](double value) { return value != 0.0 && !std::isnan(value); };
+  return std::none_of(ground.values.begin(), ground.values.end(), is_height)
              ? ""
              : fmt::format(
-                   "{}: {} of {} elevations are 0: is it a raster of the thickness, swapped with the DEM? If it "
-                   "is, correct the path",
-                   std::filesystem::path(file).filename().string(), zeros, known);
+                   "{}: all elevations at its edge are 0, but not inside: is it a raster of the thickness, swapped "
+                   "with "
+                   "the DEM? If it is, correct the path",
+                   std::filesystem::path(file).filename().string());
 }
 
 }  // namespace thawslide::gis

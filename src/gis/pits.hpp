@@ -12,7 +12,7 @@ namespace thawslide::gis {
 // or sea has such a shore all around. A single point counts if it is 0.
 [[nodiscard]] std::string pits_warning(const std::string& file, const Raster& ground);
 
-// Warning about a raster that is 0 at most points, as a thickness is; empty if it is not.
+// Warning about a raster that is 0 along its edge and not inside, as a thickness is; empty if it is not.
 [[nodiscard]] std::string thickness_warning(const std::string& file, const Raster& ground);
 
 }  // namespace thawslide::gis
