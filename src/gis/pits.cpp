@@ -145,7 +145,7 @@ std::string thickness_warning(const std::string& file, const Raster& ground) {
   for (int row = 0; row < ground.rows; ++row) {
     const bool is_end = row == 0 || row + 1 == ground.rows;
     for (int column = 0; column < ground.columns; column += is_end ? 1 : std::max(1, ground.columns - 1)) {
-      if (const double value = ground.at(column, row); value != 0.0 && !std::isnan(value)) {
+      if (ground.at(column, row) != 0.0) {
         return "";
       }
     }
@@ -155,8 +155,7 @@ std::string thickness_warning(const std::string& file, const Raster& ground) {
              ? ""
              : fmt::format(
                    "{}: all elevations at its edge are 0, but not inside: is it a raster of the thickness, swapped "
-                   "with "
-                   "the DEM? If it is, correct the path",
+                   "with the DEM? If it is, correct the path",
                    std::filesystem::path(file).filename().string());
 }
 
