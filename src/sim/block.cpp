@@ -153,7 +153,13 @@ class Block {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = path_.normal_at(slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
-    direction_ = direction_of(bodies_at_start(model, particles, parameters.grid.cell), {});
+    const std::vector<BodyAtStart> bodies = bodies_at_start(model, particles, parameters.grid.cell);
+    direction_ = direction_of(bodies, {});
+    rear_ = on_ground((direction_ > 0.0 ? bodies.front().lower : bodies.front().upper) - model.origin[0]);
+    up_ = -model.motion.gravity.normalized();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      top_ = std::max(top_, up_.dot(Vector<double, 2>(particles.position(p, 0), particles.position(p, 1))));
+    }
   }
 
   void step(double dt) {
@@ -181,11 +187,15 @@ class Block {
     const Forces forces = evaluate_base();
     const BlockBand band = std::visit([](const auto& column) { return column.band(); }, column_);
     const Slice& foremost = direction_ > 0.0 ? slices_.all.back() : slices_.all.front();
-    const double front = path_.x_at(foremost.path + displacement_) + model_.origin[0];
+    const Vector<double, 2> front =
+        on_ground(path_.x_at(foremost.path + displacement_) + 0.5 * direction_ * parameters_.grid.cell);
+    const Vector<double, 2> onward(direction_ * up_[1], -direction_ * up_[0]);
     return {{"time_s", time_},
             {"velocity_m_s", direction_ * velocity_},
             {"displacement_m", direction_ * displacement_},
-            {"front_position_m", front + 0.5 * direction_ * parameters_.grid.cell},
+            {"front_position_m", front[0] + model_.origin[0]},
+            {"travel_distance_m", onward.dot(front - rear_)},
+            {"drop_height_m", top_ - up_.dot(front)},
             {"normal_pressure_Pa", basal_.normal_pressure[0]},
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
             {"sliding_strength_Pa", strength_},
@@ -202,6 +212,9 @@ class Block {
 
  private:
   using AnyColumn = std::variant<BlockColumn, BlockBandColumn>;
+
+  // Point of the ground at x; both relative to the domain's lower corner [m].
+  [[nodiscard]] Vector<double, 2> on_ground(double x) const { return {x, model_.profile->height(x)}; }
 
   [[nodiscard]] AnyColumn make_column(std::int32_t material) const {
     const BlockColumn::Initial rows = initial_column(material);
@@ -286,7 +299,9 @@ class Block {
   Table valley_factor_;  // over absolute x
   Slices slices_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;  // along the ground, towards +x
-  double direction_ = 1;  // +1 or -1: direction along x in which output is positive
+  double direction_ = 1;         // +1 or -1: direction along x in which output is positive
+  Vector<double, 2> up_, rear_;  // against gravity; rear end at t = 0, on the ground [m]
+  double top_ = -HUGE_VAL;       // height of the highest particle at t = 0, along up_ [m]
   AnyColumn column_;
   terrain::BasalNodes basal_;
   double base_area_ = 0;                // ground below the slices, including the valley factor [m2 per m of width]

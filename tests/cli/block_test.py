@@ -80,6 +80,10 @@ def test_a_block_that_turns_back_moves_downhill_as_the_run_does(ran: Ran, thawsl
     run = history(tmp_path / "run")
     assert rows["front_position_m"][-1] == pytest.approx(run["front_position_m"][-1], abs=3.0)
     assert run["runout_m"][-1] > 0.0
+    # The rear is at x = 100 m, and the highest particle half a spacing below the upper corner at y = -30 m.
+    assert rows["travel_distance_m"] == pytest.approx(rows["front_position_m"] - 100.0)
+    assert rows["drop_height_m"] == pytest.approx(0.5 * rows["front_position_m"] - 30.0, abs=3.0)
+    assert np.ptp(rows["drop_height_m"] - 0.5 * rows["front_position_m"]) < 1e-6
 
 
 @pytest.fixture

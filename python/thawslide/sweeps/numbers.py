@@ -69,8 +69,12 @@ def numbers_of_run(run: Run, expressions: Sequence[Expression]) -> dict[str, flo
 
 def numbers_of_block(rows: Mapping[str, Numbers], expressions: Sequence[Expression]) -> dict[str, float]:
     """Return the key numbers of a rigid block from the columns of its rows."""
+    height, length = float(rows["drop_height_m"][-1]), float(rows["travel_distance_m"][-1])
     numbers: dict[str, float | None] = {
         "simulated_time_s": float(rows["time_s"][-1]),
+        "drop_height_m": height,
+        "travel_distance_m": length,
+        "h_over_l": height / length if length > 0.0 else None,
         "peak_speed_m_s": _peak(rows["velocity_m_s"]),
         "displacement_m": float(rows["displacement_m"][-1]),
         "runout_m": float(rows["front_position_m"][-1] - rows["front_position_m"][0]),
