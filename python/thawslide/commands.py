@@ -39,6 +39,11 @@ def score() -> int:
     return run_command("thawslide score", "thawslide.scores.command")
 
 
+def forecast() -> int:
+    """Run `thawslide forecast`."""
+    return run_command("thawslide forecast", "thawslide.forecasts.command")
+
+
 def pair() -> int:
     """Run `thawslide run --pair`."""
     return run_command("thawslide run --pair", "thawslide.pairs.command")

@@ -256,6 +256,7 @@ int run_program(int count, char** arguments) {
   add_python_command("scarp", "Build a release from a failure surface below a DEM");
   add_python_command("probability", "Map probabilities and quantiles of many runs");
   add_python_command("score", "Compare a sweep or a run with observations");
+  add_python_command("forecast", "Simulate the members of a case's sweep.toml, with a prior check and a summary");
 
   CLI::App* show_version = program.add_subcommand("version", "Print version, commit and build");
   show_version->callback([&] { exit_code = print_version(); });

@@ -45,7 +45,7 @@ def test_figures_do_not_depend_on_the_settings_of_matplotlib(make_run: Any, tmp_
     ("settings", "variables"), [(b"font.size: \xff\xfe\n", {}), (b"", {"MPLBACKEND": "nonsense"})],
     ids=["bytes", "back end"],
 )  # fmt: skip
-@pytest.mark.parametrize("name", ["report", "scarp", "sweep", "probability", "score"])
+@pytest.mark.parametrize("name", ["report", "scarp", "sweep", "probability", "score", "forecast"])
 def test_settings_that_prevent_the_import_are_named(
     tmp_path: Path, name: str, settings: bytes, variables: dict[str, str]
 ) -> None:
@@ -71,6 +71,7 @@ FAULTS = {
 MODULES = {
     "report": "thawslide.command_line", "scarp": "thawslide.scarps.command", "sweep": "thawslide.sweeps.command",
     "probability": "thawslide.sweeps.probability_command", "score": "thawslide.scores.command",
+    "forecast": "thawslide.forecasts.command",
 }  # fmt: skip
 
 

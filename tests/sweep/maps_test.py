@@ -52,7 +52,7 @@ def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capf
     assert main([*command, "--speed", "5"]) == 0
     table = pd.read_parquet(sweep / "members.parquet")
     assert list(table["status"]) == ["done"] * 4 and table["peak_speed_m_s"].is_monotonic_decreasing
-    folders = SweepFolder(sweep).done_folders()
+    folders = [SweepFolder(sweep).run_folder(number) for number in SweepFolder(sweep).done_members()]
     thickness = np.array([read(folder / "maps" / "max_thickness.tif") for folder in folders])
     arrival = np.array([read(folder / "maps" / "arrival_time.tif") for folder in folders])
     maps = sweep / "probability"

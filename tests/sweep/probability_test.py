@@ -62,6 +62,22 @@ def test_maps_match_numpy_exactly(ensemble: tuple[list[Path], dict[str, Numbers]
         assert np.array_equal(read(output / f"arrival_p{percent}.tif"), expected, equal_nan=True)
 
 
+def test_weighted_maps_match_numpy(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
+    folders, stacks = ensemble
+    weights = np.random.default_rng(4).integers(0, 5, len(folders))
+    output = tmp_path / "out"
+    write_probability_maps(rasters_in(folders), output, memory=1.0, weights=weights)
+    thickness = np.nan_to_num(stacks["max_thickness"])
+    repeated = np.repeat(thickness, weights, axis=0)
+    assert read(output / "reached.tif") == pytest.approx(
+        np.average(np.isfinite(stacks["arrival_time"]), axis=0, weights=weights)
+    )
+    assert read(output / "thickness_above_0.5.tif") == pytest.approx((repeated > 0.5).mean(axis=0))
+    for percent in (10, 50, 90):
+        expected = np.quantile(repeated, percent / 100.0, axis=0, method="inverted_cdf")
+        assert np.array_equal(read(output / f"thickness_p{percent}.tif"), expected)
+
+
 def test_maps_have_styles_and_thresholds(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
     paths = write_probability_maps(rasters_in(ensemble[0]), tmp_path / "out")
     assert all("colorrampshader" in path.with_suffix(".qml").read_text() for path in paths)

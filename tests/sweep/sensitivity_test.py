@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from scipy.stats import spearmanr
 
 from thawslide.errors import NotInRunError
 from thawslide.sweeps.design import Design
-from thawslide.sweeps.sensitivity import MORRIS, RANK, SOBOL_FIRST, SOBOL_TOTAL, indices_of
+from thawslide.sweeps.sensitivity import MORRIS, RANK, SOBOL_FIRST, SOBOL_TOTAL, effective_number, indices_of
 from thawslide.sweeps.variables import Levels, Uniform
 
 
@@ -43,6 +44,26 @@ def test_rank_correlations_show_direction_and_need_different_values() -> None:
         indices_of(design, np.ones(5))
     with pytest.raises(NotInRunError, match="too few"):
         indices_of(design, np.array([1.0, np.nan, np.nan, 2.0, np.nan]))
+
+
+def test_weighted_rank_correlations_are_those_of_repeated_members() -> None:
+    design = Design(("case",), (Uniform("a", 0.0, 1.0), Uniform("b", 0.0, 1.0)), "lhs", 60, 1)
+    members = [member.changes for member in design.members()]
+    random = np.random.default_rng(2)
+    values = np.array([each["a"] - 0.5 * each["b"] for each in members]) + random.normal(0.0, 0.2, 60)
+    values[7] = np.nan
+    weights = random.integers(0, 4, 60)
+    weights[9] = 0
+    found = {each.key: each for each in indices_of(design, values, weights / weights.sum())}
+    kept = np.repeat(np.flatnonzero(np.isfinite(values)), weights[np.isfinite(values)])
+    for key in ("a", "b"):
+        inputs = np.array([each[key] for each in members])
+        assert found[key].value == pytest.approx(spearmanr(inputs[kept], values[kept]).statistic)
+        assert found[key].low < found[key].value < found[key].high
+    assert effective_number(np.ones(7)) == 7.0 and effective_number(np.array([1.0, 0.0, 0.0])) == 1.0
+    morris = Design(("case",), (Uniform("a", 0.0, 2.0),), "morris", 10, 1)
+    with pytest.raises(NotInRunError, match="morris has no measure for weighted members"):
+        indices_of(morris, np.arange(20.0), np.ones(20))
 
 
 def test_rank_correlation_of_a_list_is_that_of_its_values() -> None:

@@ -17,7 +17,7 @@ from thawslide.pages.markup import json_part
 from thawslide.text_files import finite_number, read_table
 
 _COLUMNS = ("event", "kind", "volume_million_m3", "drop_height_m", "travel_distance_m", "source")
-_KINDS = {"rock and ice": (ORANGE, "diamond"), "rock": (BLUE, "circle")}
+KINDS = {"rock and ice": (ORANGE, "diamond"), "rock": (BLUE, "circle")}
 _NAMED = {
     "Lamplugh 2016": "middle left",
     "Kolka 2002": "top center",
@@ -62,7 +62,7 @@ def events_part(runs: Mapping[str, Mobility]) -> str:
     shown = {name: one for name, one in runs.items() if one.volume and one.ratio is not None}
     if not shown:
         return ""
-    traces = [_kind_trace(kind) for kind in _KINDS]
+    traces = [_kind_trace(kind) for kind in KINDS]
     traces += [_run_trace(name, one, number) for number, (name, one) in enumerate(shown.items())]
     axis = {"showline": True, "linecolor": "#444444", "gridcolor": "#E4E4E4", "zeroline": False}
     lowest = min([event.volume for event in published_events()] + [one.volume or 1.0 for one in shown.values()])
@@ -88,7 +88,7 @@ def events_part(runs: Mapping[str, Mobility]) -> str:
 def _kind_trace(kind: str) -> dict[str, Any]:
     """Return the events of a kind as points with hover texts."""
     events = [event for event in published_events() if event.kind == kind]
-    colour, symbol = _KINDS[kind]
+    colour, symbol = KINDS[kind]
     return {
         "type": "scatter",
         "mode": "markers+text",

@@ -45,14 +45,17 @@ class Summary:
     arrival: Classes
 
 
-def make_summary(run: Run, output: Path | None = None, dpi: int = 150) -> tuple[Path, Path]:
-    """Write summary.html and summary.pdf into `output` (default: the run folder); return their paths."""
+def make_summary(run: Run, output: Path | None = None, dpi: int = 150, context: str = "") -> tuple[Path, Path]:
+    """Write summary.html and summary.pdf into `output` (default: the run folder); return their paths.
+
+    `context`: a sentence on the other runs of a forecast.
+    """
     if not on_map(run):
         raise ReportError("--brief: only for 3D runs on a DEM, which have maps. Use the report of this run.")
     site = make_site(run)
     summary = Summary(
         run.title,
-        scenario(run),
+        [*scenario(run), context] if context else scenario(run),
         plain_numbers(run),
         arrival_rows(run),
         limits(run),

@@ -10,6 +10,7 @@ x_(k): sorted members; C_k: total weight of the first k. The second sum equals E
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,16 +56,16 @@ def percentile(members: Numbers, weights: Numbers, observed: float) -> float:
     return float(np.clip(100.0 * (below + 0.5 * equal) / weights.sum(), 0.0, 100.0))
 
 
-def quantiles(members: Numbers, weights: Numbers) -> list[float]:
-    """Return the 5, 50 and 95 % quantiles: the smallest member that this weight of the members does not exceed.
+def quantiles(members: Numbers, weights: Numbers, probabilities: Sequence[float] = RANGE) -> list[float]:
+    """Return quantiles, by default of 5, 50 and 95 %: the smallest member that this weight does not exceed.
 
     Members that are not finite do not count; nan without any other.
     """
     known = np.isfinite(members) & (weights > 0.0)
     if not known.any():
-        return [float("nan")] * len(RANGE)
+        return [float("nan")] * len(probabilities)
     members, weights = members[known], weights[known]
     order = np.argsort(members, kind="stable")
     reached = np.cumsum(weights[order]) / weights.sum()
-    at = np.searchsorted(reached, np.array(RANGE) * (1.0 - _ROUNDING))
+    at = np.searchsorted(reached, np.array(probabilities) * (1.0 - _ROUNDING))
     return [float(value) for value in members[order][np.minimum(at, len(members) - 1)]]

@@ -16,10 +16,9 @@ from thawslide.run_folder import Run
 from thawslide.scores.quantities import Quantity
 from thawslide.sweeps.folder import DONE, PLAN, SweepFolder
 from thawslide.sweeps.numbers import numbers_of_run, series_of
-from thawslide.sweeps.results import TABLE
+from thawslide.sweeps.results import TABLE, WEIGHT
 
-_MOVES = "is_moving_at_end"  # 1 if the mean speed at the end is above 1 % of its peak
-WEIGHT = "weight"  # column of the table of members
+MOVES = "is_moving_at_end"  # 1 if the mean speed at the end is above 1 % of its peak
 
 
 @dataclass(frozen=True)
@@ -51,12 +50,10 @@ def read_forecast(folder: Path) -> Forecast:
     else:
         raise ReportError(f"{folder}: neither a sweep nor a run (no {PLAN}, no run.json). Specify such a folder.")
     columns = found.columns
-    if "runout_m" in columns:  # of a rigid block
-        columns.setdefault("travel_distance_m", columns["runout_m"])
     if "travel_distance_m" in columns:
         with np.errstate(divide="ignore"):
             columns.setdefault("mean_speed_m_s", columns["travel_distance_m"] / columns["duration_s"])
-    if moving := int(np.count_nonzero(columns.pop(_MOVES))):
+    if moving := int(np.count_nonzero(columns.get(MOVES, 0))):
         found.notes.append(
             f"{moving} of {len(found.members)} members still moved at their end: their travel distance and duration "
             "are lower limits"
@@ -115,7 +112,7 @@ def _of_series(members: list[dict[str, Numbers]]) -> dict[str, Numbers]:
     speeds = [each.get("speed_m_s", none) for each in members]
     return {
         "duration_s": np.array([front_duration(time, distance) for time, distance in pairs]),
-        _MOVES: np.array([float(speed[-1] > STOPPED_FRACTION * np.nanmax(speed, initial=0.0)) for speed in speeds]),
+        MOVES: np.array([float(speed[-1] > STOPPED_FRACTION * np.nanmax(speed, initial=0.0)) for speed in speeds]),
     }
 
 

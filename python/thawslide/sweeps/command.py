@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import argparse
 import sys
-import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+
+import pandas as pd
 
 from thawslide._core import UserError
 from thawslide.commands import print_line
-from thawslide.errors import ReportError, nearest, quoted
+from thawslide.errors import ReportError, quoted
 from thawslide.sweeps.api import Options, absolute_case, run_sweep
 from thawslide.sweeps.design import FACTORIAL, METHODS, Design, parse_correlation, parse_sample
+from thawslide.sweeps.design_file import DISTRIBUTIONS, is_sweep_file, read_sweep_file
 from thawslide.sweeps.expressions import Expression
 from thawslide.sweeps.folder import DONE, FAILED
 from thawslide.sweeps.member import KEEPS
@@ -21,34 +22,17 @@ from thawslide.sweeps.probability_command import numbers
 from thawslide.sweeps.variables import (
     Levels,
     Variable,
-    distribution,
-    levels,
     parse_distribution,
     parse_levels,
     toml_value,
 )
-from thawslide.text_files import MEGABYTE, is_number, read_text
-
-_DISTRIBUTIONS = ("range", "normal", "lognormal")
-_KEYS = (
-    "cases",
-    "sample",
-    "seed",
-    "block",
-    "set",
-    "vary",
-    *_DISTRIBUTIONS,
-    "tie",
-    "correlate",
-    "column",
-)  # of the table [sweep]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
     given = _parser().parse_args(arguments)
     try:
-        design, options = _from_file(given) if _is_sweep_file(given.case) else _from_arguments(given)
+        design, options = _from_file(given) if _has_sweep_file(given.case) else _from_arguments(given)
         _, table = run_sweep(design, options)
     except (ReportError, UserError) as error:
         _print(f"thawslide sweep: error: {error}")
@@ -56,10 +40,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         _print("interrupted. All finished members are kept. To continue, repeat the command.")
         return 4
+    return report_members(table, "thawslide sweep")
+
+
+def report_members(table: pd.DataFrame, command: str) -> int:
+    """Print how many members are done, and the errors of those that failed; return the exit code."""
     count = {status: int((table["status"] == status).sum()) for status in (DONE, FAILED)}
     _print(f"{count[DONE]} members done, {count[FAILED]} failed")
     for row in table[table["status"] == FAILED].head(_MOST_ERRORS).itertuples():
-        _print(f"thawslide sweep: error: member {row.member}: {row.error}")
+        _print(f"{command}: error: member {row.member}: {row.error}")
     return 3 if count[FAILED] else 0
 
 
@@ -70,17 +59,8 @@ def _print(line: str) -> None:
     print_line(line, sys.stderr)
 
 
-def _is_sweep_file(cases: Sequence[str]) -> bool:
-    """Return whether the only argument is a TOML file with a table [sweep]."""
-    path = Path(cases[0])
-    return len(cases) == 1 and path.is_file() and "sweep" in _toml(path)
-
-
-def _toml(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(read_text(path, MEGABYTE))
-    except (tomllib.TOMLDecodeError, ReportError):
-        return {}  # read as a case, which reports a better message
+def _has_sweep_file(cases: Sequence[str]) -> bool:
+    return len(cases) == 1 and is_sweep_file(Path(cases[0]))
 
 
 def _options(given: argparse.Namespace, is_block: bool, expressions: Sequence[Expression]) -> Options:
@@ -103,7 +83,7 @@ def _options(given: argparse.Namespace, is_block: bool, expressions: Sequence[Ex
 
 def _from_arguments(given: argparse.Namespace) -> tuple[Design, Options]:
     variables: list[Variable] = [*map(parse_levels, given.vary), *_constants(given.set)]
-    for kind in _DISTRIBUTIONS:
+    for kind in DISTRIBUTIONS:
         variables += [parse_distribution(kind, text) for text in getattr(given, kind)]
     method, count = parse_sample(given.sample) if given.sample else (FACTORIAL, 0)
     cases = tuple(absolute_case(case) for case in given.case)
@@ -125,49 +105,12 @@ def _constants(texts: Sequence[str]) -> list[Levels]:
 
 
 def _from_file(given: argparse.Namespace) -> tuple[Design, Options]:
-    """Read the design from the table [sweep]; paths in it are relative to the file."""
     path = Path(given.case[0])
-    options = ("vary", "set", "sample", "column", "tie", "correlate", *_DISTRIBUTIONS)
+    options = ("vary", "set", "sample", "column", "tie", "correlate", *DISTRIBUTIONS)
     if any(getattr(given, option) for option in options):
         raise ReportError(f"{path}: specifies the design. Remove --vary, --sample and the other design options.")
-    table = _toml(path)["sweep"]
-    for key in table:
-        if key not in _KEYS:
-            raise ReportError(f"{path}: sweep.{key}: unknown key{nearest(key, _KEYS)} Allowed: {', '.join(_KEYS)}.")
-    cases = _of_type(path, table, "cases", list, [])
-    if not cases or not all(isinstance(case, str) for case in cases):
-        raise ReportError(f"{path}: sweep.cases: missing or not a list of texts. Specify at least one case.")
-    variables: list[Variable] = []
-    for key, values in _of_type(path, table, "vary", dict, {}).items():
-        if not isinstance(values, str | list):
-            raise ReportError(
-                f"{path}: sweep.vary.{quoted(key)}: not a list (found {quoted(str(values))}). Correct it."
-            )
-        variables.append(parse_levels(f"{key}={values}") if isinstance(values, str) else levels(key, values))
-    variables += [levels(key, [value]) for key, value in _of_type(path, table, "set", dict, {}).items()]
-    for kind in _DISTRIBUTIONS:
-        for key, pair in _of_type(path, table, kind, dict, {}).items():
-            if not isinstance(pair, list) or len(pair) != 2 or not all(map(is_number, pair)):
-                raise ReportError(f"{path}: sweep.{kind}.{quoted(key)}: not a pair of numbers. Correct it.")
-            variables.append(distribution(kind, key, float(pair[0]), float(pair[1])))
-    sample = _of_type(path, table, "sample", str, "")
-    method, count = parse_sample(sample) if sample else (FACTORIAL, 0)
-    seed = given.seed if given.seed is not None else _of_type(path, table, "seed", int, 0)
-    files = tuple(absolute_case(path.parent / case) for case in cases)
-    expressions = [Expression(name, str(text)) for name, text in _of_type(path, table, "column", dict, {}).items()]
-    is_block = given.block or _of_type(path, table, "block", bool, False)
-    ties = tuple(Expression(key, str(text), "--tie") for key, text in _of_type(path, table, "tie", dict, {}).items())
-    pairs = _of_type(path, table, "correlate", dict, {})
-    correlations = tuple(parse_correlation(f"{keys}={number}") for keys, number in pairs.items())
-    design = Design(files, tuple(variables), method, count, seed, ties, correlations)
-    return design, _options(given, is_block, expressions)
-
-
-def _of_type(path: Path, table: dict[str, Any], key: str, kind: type, default: Any) -> Any:
-    value = table.get(key, default)
-    if not isinstance(value, kind):
-        raise ReportError(f"{path}: sweep.{key}: wrong type (found {quoted(str(value))}). Correct it.")
-    return value
+    found = read_sweep_file(path, given.seed)
+    return found.design, _options(given, given.block or found.is_block, found.expressions)
 
 
 def _names(text: str) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ _WORDS = {"speed_m_s": "mean speed (m/s)", "runout_m": "runout distance (m)"}
 
 
 @styled
-def spread(series: Sequence[Mapping[str, Numbers]]) -> Figure:
+def spread(series: Sequence[Mapping[str, Numbers]], weights: Numbers | None = None) -> Figure:
     """Plot speed and runout distance through time: members, their median, and the range from P10 to P90.
 
     A member keeps its last value after its end, because it is then at rest or has been stopped.
@@ -37,20 +37,28 @@ def spread(series: Sequence[Mapping[str, Numbers]]) -> Figure:
     title_figure(figure, f"Spread of {len(series)} members")
     panels = figure.subplots(1, len(names), squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
-        _plot_spread(axes, [each for each in series if name in each], name)
+        kept = np.array([name in each for each in series])
+        members = [each for each in series if name in each]
+        _plot_spread(axes, members, name, None if weights is None else weights[kept])
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     title_panels(list(panels), [_WORDS[name].partition(" (")[0] for name in names])
     return figure
 
 
-def _plot_spread(axes: Axes, series: Sequence[Mapping[str, Numbers]], name: str) -> None:
+def _plot_spread(axes: Axes, series: Sequence[Mapping[str, Numbers]], name: str, weights: Numbers | None) -> None:
     time = np.linspace(0.0, max(float(each["time_s"][-1]) for each in series), _TIMES)
     values = np.array([np.interp(time, each["time_s"], each[name]) for each in series])
     for row in values[:: -(-len(values) // _MOST_LINES)]:
         axes.plot(time, row, color=BLUE, linewidth=0.4, alpha=0.25)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # times without a value of any member
-        low, median, high = np.nanpercentile(values, [10.0, 50.0, 90.0], axis=0)
+        if weights is None:
+            low, median, high = np.nanpercentile(values, [10.0, 50.0, 90.0], axis=0)
+        else:
+            mass = np.broadcast_to(weights[:, None], values.shape)
+            low, median, high = np.nanpercentile(
+                values, [10.0, 50.0, 90.0], axis=0, method="inverted_cdf", weights=mass
+            )
     axes.fill_between(time, low, high, color=BLUE, alpha=0.2, linewidth=0, label="P10 to P90")
     axes.plot(time, median, color=BLACK, label="median")
     axes.plot([], [], color=BLUE, linewidth=0.6, label="members")

@@ -13,6 +13,7 @@ from thawslide.errors import ReportError
 from thawslide.text_files import MEGABYTE, is_file, read_json
 
 PLAN = "sweep.json"
+PRIOR, PRIOR_FILE = "prior", "prior.json"  # folder of the prior check of a forecast, and a file in it
 INPUTS = "inputs"  # in the plan: digests of the inputs of each member
 DONE, FAILED, RUNNING, PENDING = "done", "failed", "running", "pending"
 FINISHED = (DONE, FAILED)
@@ -41,12 +42,18 @@ class SweepFolder:
         """Return the file of a member's thinned time series."""
         return self.path / "members" / f"{number:06d}.npz"
 
-    def done_folders(self) -> list[Path]:
-        """Return the run folders of the members that are done; ReportError if there are none."""
-        done = [self.run_folder(number) for number in self._numbers() if self.record(number)["status"] == DONE]
+    def done_members(self) -> list[int]:
+        """Return the numbers of the members that are done; ReportError if there are none."""
+        done = [number for number in self._numbers() if self.record(number)["status"] == DONE]
         if not done:
             raise ReportError(f"{self.path}: no member is done. Wait, or read the errors in members.parquet.")
         return done
+
+    def weights(self) -> dict[int, float] | None:
+        """Return the weights of the members by number, None if all are equally probable."""
+        path = self.path / PRIOR / PRIOR_FILE
+        found = read_json(path, 64 * MEGABYTE).get("weights") if is_file(path) else None
+        return {int(number): float(weight) for number, weight in found.items()} if found else None
 
     def unfinished(self) -> int:
         """Return the number of members that are neither done nor failed."""
@@ -82,7 +89,7 @@ class SweepFolder:
                 return []
             for number in changed:
                 self.forget(number)
-        elif self.path.is_dir() and any(self.path.iterdir()):
+        elif self.path.is_dir() and any(path.name != PRIOR for path in self.path.iterdir()):
             raise ReportError(f"{self.path}: not empty, and not a sweep. Specify another --output.")
         try:
             (self.path / "members").mkdir(parents=True, exist_ok=True)

@@ -13,6 +13,7 @@ from thawslide.sweeps.design import Design
 from thawslide.sweeps.folder import DONE, FINISHED, SweepFolder
 from thawslide.sweeps.page import write_page
 from thawslide.sweeps.probability import DEFAULT_THRESHOLDS, rasters_in, write_probability_maps
+from thawslide.sweeps.results import WEIGHT
 
 MAPS = "probability"
 TERRAIN = "terrain"
@@ -28,8 +29,10 @@ def write_outcome(
     report: Callable[[str], None],
 ) -> None:
     """Write the probability maps of the members that are done, and the page; remove maps that are not kept."""
-    done = [folder.run_folder(int(number)) for number in members[members["status"] == DONE]["member"]]
-    maps = probability_maps_of(folder, done, thresholds, report)
+    finished = members[members["status"] == DONE]
+    done = [folder.run_folder(int(number)) for number in finished["member"]]
+    weights = finished[WEIGHT].to_list() if WEIGHT in finished else None
+    maps = probability_maps_of(folder, done, thresholds, report, weights)
     page = write_page(folder, design, members, results, maps)
     report(f"page: {page}")
     if keep == "none" and members["status"].isin(FINISHED).all():
@@ -42,6 +45,7 @@ def probability_maps_of(
     done: Sequence[Path],
     thresholds: Mapping[str, Sequence[float]] | None,
     report: Callable[[str], None],
+    weights: Sequence[float] | None = None,
 ) -> list[Path]:
     """Write the maps of all members that are done, or return those written before the members' maps were removed."""
     output = folder.path / MAPS
@@ -57,7 +61,7 @@ def probability_maps_of(
             )
         return written
     try:
-        written = write_probability_maps(rasters_in(done), output, thresholds)
+        written = write_probability_maps(rasters_in(done), output, thresholds, weights=weights)
         shutil.copyfile(done[0] / "maps" / "terrain.tif", output / f"{TERRAIN}.tif")
     except (ReportError, OSError) as error:  # for example a varied size of map cells
         report(f"warning: no probability maps: {error}")

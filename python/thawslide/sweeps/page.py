@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,10 @@ from matplotlib.figure import Figure
 from thawslide.arrays import Numbers
 from thawslide.atomic_file import atomic_file
 from thawslide.errors import NotInRunError, ReportError, quoted
+from thawslide.forecasts.output import prior_section
 from thawslide.number_text import exact_text, number_text
 from thawslide.pages.markup import details, drawn_data, figure_part, page_frame, table
+from thawslide.scores.ensemble import quantiles
 from thawslide.scores.output import stored_section
 from thawslide.sweeps.design import FACTORIAL, Design
 from thawslide.sweeps.figures import scatter, spread, tornado
@@ -23,12 +26,13 @@ from thawslide.sweeps.folder import DONE, FAILED, SweepFolder
 from thawslide.sweeps.labels import label_of_key, name_and_unit
 from thawslide.sweeps.map_figure import probability_maps
 from thawslide.sweeps.raster_files import threshold_of
+from thawslide.sweeps.results import WEIGHT
 from thawslide.sweeps.sensitivity import Index, indices_of
 from thawslide.sweeps.variables import CASE, Levels, Normal, Uniform, Variable
 
 NAME = "sweep.html"
 _USUAL_RESULTS = (("peak_speed_m_s",), ("travel_distance_m", "runout_m"))  # the first of each that has values
-NOT_RESULTS = ("member", CASE, "status", "starts", "seed", "wall_s", "error")
+NOT_RESULTS = ("member", CASE, "status", "starts", "seed", "wall_s", WEIGHT, "error")
 _MOST_VALUES = 8  # of a list in the table of the design
 _HEAD = ("result", "column", "unit", "mean", "SD", "P10", "P50", "P90")
 _QUANTILES = (10.0, 50.0, 90.0)
@@ -50,10 +54,10 @@ def write_page(
         parts.append(f'<p class="note">{count[FAILED]} members failed. Results do not include them.</p>')
     if (unfinished := design.size - count[DONE] - count[FAILED]) > 0:
         parts.append(f'<p class="note">{unfinished} members have not finished. Results do not include them.</p>')
-    parts += ["<h2>Design</h2>", table(_design_rows(design), "facts")]
+    parts += ["<h2>Design</h2>", table(_design_rows(design), "facts"), prior_section(folder.path)]
     numbers = [name for name in members if name not in (*NOT_RESULTS, *keys, *others)]
     parts += ["<h2>Results</h2>", table(_number_rows(done, numbers), "runs", _HEAD)]
-    parts += _figure("Spread through time", _SPREAD, lambda: spread(_series(folder, done)))
+    parts += _figure("Spread through time", _SPREAD, lambda: spread(_series(folder, done), weights_of(done)))
     for result in shown if keys else ():
         caption = _SENSITIVITY[design.method]
         parts += _figure(f"Sensitivity of {name_and_unit(result)[0]}", caption, _tornado(design, members, result))
@@ -126,16 +130,24 @@ def _tornado(design: Design, members: pd.DataFrame, result: str) -> Callable[[],
 
 def indices(design: Design, members: pd.DataFrame, result: str) -> list[Index]:
     """Return the sensitivity of a column of the table of members to the varied keys."""
-    return indices_of(design, members[result].to_numpy(dtype=float))
+    return indices_of(design, members[result].to_numpy(dtype=float), weights_of(members))
+
+
+def weights_of(members: pd.DataFrame) -> Numbers | None:
+    """Return the weights of members, None if all are equally probable."""
+    return members[WEIGHT].to_numpy(dtype=float) if WEIGHT in members else None
 
 
 def _series(folder: SweepFolder, done: pd.DataFrame) -> list[dict[str, Numbers]]:
+    """Return the time series of each member, empty without a file."""
     found = []
     for number in done["member"]:
         path = folder.series_file(int(number))
         if path.is_file():
             with np.load(path, allow_pickle=False) as file:
                 found.append({name: file[name] for name in file.files})
+        else:
+            found.append({})
     return found
 
 
@@ -165,13 +177,25 @@ def _distribution_words(variable: Variable) -> str:
 
 
 def _number_rows(done: pd.DataFrame, names: Sequence[str]) -> list[tuple[Any, ...]]:
-    rows = []
+    rows, weights = [], weights_of(done)
     for name in names:
         values = done[name].to_numpy(dtype=float)
-        values = values[np.isfinite(values)]
-        if values.size:
-            deviation = float(values.std(ddof=1)) if values.size > 1 else float("nan")
-            found = (float(values.mean()), deviation, *map(float, np.percentile(values, _QUANTILES)))
+        known = np.isfinite(values)
+        if known.any():
             words, unit = name_and_unit(name)
+            found = _moments(values[known], None if weights is None else weights[known])
             rows.append((words, name, unit, *map(number_text, found)))
     return rows
+
+
+def _moments(values: Numbers, weights: Numbers | None) -> list[float]:
+    """Return mean, standard deviation and quantiles."""
+    if weights is None:
+        deviation = float(values.std(ddof=1)) if values.size > 1 else float("nan")
+        return [float(values.mean()), deviation, *map(float, np.percentile(values, _QUANTILES))]
+    if not weights.sum() > 0.0:
+        return [float("nan")] * (2 + len(_QUANTILES))
+    mass = weights / weights.sum()
+    mean, left = float(np.sum(mass * values)), 1.0 - float(np.sum(mass**2))
+    deviation = math.sqrt(float(np.sum(mass * (values - mean) ** 2)) / left) if left > 0.0 else float("nan")
+    return [mean, deviation, *quantiles(values, mass, [each / 100.0 for each in _QUANTILES])]

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from thawslide import _core
 from thawslide.arrays import Numbers
@@ -25,6 +26,7 @@ from thawslide.text_files import MEGABYTE, is_number, read_text
 
 QUANTILES = (0.1, 0.5, 0.9)
 _MOST = 500.0  # m or m/s: no slide has more
+_ROUNDING = 1e-12  # of a probability
 REACHED = 0.1  # m: thickness above which a cell counts as reached, without a map of arrival times
 
 
@@ -65,20 +67,22 @@ class _Output:
     threshold: str = ""  # of a probability, with its unit
 
 
-def exceedance(values: Numbers, threshold: float) -> Numbers:
-    """Return the fraction of members with a value above a threshold; the members are the first axis."""
-    return np.asarray(np.count_nonzero(values > threshold, axis=0) / len(values))
+def fraction(is_counted: NDArray[np.bool_], weights: Numbers | None) -> Numbers:
+    """Return the fraction of the members that count, by weight (None: equal ones); the members are the first axis."""
+    if weights is None:
+        return np.asarray(np.count_nonzero(is_counted, axis=0) / len(is_counted))
+    return np.asarray(np.tensordot(weights, is_counted, 1) / weights.sum()).clip(0.0, 1.0)
 
 
-def reached(times: Numbers) -> Numbers:
-    """Return the fraction of members with a finite arrival time."""
-    return np.asarray(np.count_nonzero(np.isfinite(times), axis=0) / len(times))
-
-
-def quantile(values: Numbers, probability: float) -> Numbers:
+def quantile(values: Numbers, probability: float, weights: Numbers | None) -> Numbers:
     """Return the smallest value that at least a fraction of the members do not exceed (`inverted_cdf` of NumPy)."""
-    index = max(math.ceil(probability * len(values) * (1.0 - 1e-12)) - 1, 0)
-    return np.asarray(np.partition(values, index, axis=0)[index])
+    if weights is None:
+        index = max(math.ceil(probability * len(values) * (1.0 - _ROUNDING)) - 1, 0)
+        return np.asarray(np.partition(values, index, axis=0)[index])
+    order = np.argsort(values, axis=0)
+    below = np.cumsum(weights[order], axis=0)
+    first = np.argmax(below >= probability * (1.0 - _ROUNDING) * below[-1], axis=0)
+    return np.asarray(np.take_along_axis(values, np.take_along_axis(order, first[None], axis=0), axis=0)[0])
 
 
 def write_probability_maps(
@@ -88,23 +92,27 @@ def write_probability_maps(
     quantiles: Sequence[float] = QUANTILES,
     memory: float = MEMORY,
     report: Callable[[str], object] = lambda _: None,
+    weights: Sequence[float] | None = None,
 ) -> list[Path]:
     """Write the maps of each quantity (thickness, speed, arrival) from the rasters of all members; return the files.
 
-    `thresholds` are those of exceedance by quantity. `report` is called with each note on a raster. ReportError if the
-    cells of the rasters do not coincide.
+    `thresholds` are those of exceedance by quantity. `report` is called with each note on a raster. `weights` of the
+    members, in their order, need not sum to 1. ReportError if the cells of the rasters do not coincide.
     """
+    given = None if weights is None else np.asarray(weights, dtype=np.float64)
     chosen = {**DEFAULT_THRESHOLDS, **(thresholds or {})}
     written: list[Path] = []
     try:
         output.mkdir(parents=True, exist_ok=True)
         for name, files in rasters.items():
             arrival = arrival_thickness(rasters["arrival"]) if "arrival" in rasters else None
-            outputs = _outputs(QUANTITIES[name], chosen.get(name, ()), quantiles, arrival)
+            outputs = _outputs(QUANTITIES[name], chosen.get(name, ()), quantiles, arrival, given)
             stack = RasterStack(files, QUANTITIES[name].kind)
             for note in stack.notes:
                 report(note)
-            written += _write(stack, QUANTITIES[name], outputs, output, memory, report)
+            # The order of weighted members needs as much memory again as their values.
+            of_values = memory if given is None else 0.5 * memory
+            written += _write(stack, QUANTITIES[name], outputs, output, of_values, report)
     except OSError as error:
         raise ReportError(
             f"{error.filename or output}: cannot be written ({error.strerror or error}). Select another --output."
@@ -113,25 +121,38 @@ def write_probability_maps(
 
 
 def _outputs(
-    quantity: Quantity, thresholds: Sequence[float], quantiles: Sequence[float], arrival: str | None
+    quantity: Quantity,
+    thresholds: Sequence[float],
+    quantiles: Sequence[float],
+    arrival: str | None,
+    weights: Numbers | None,
 ) -> list[_Output]:
+    def above(threshold: float) -> Callable[[Numbers], Numbers]:
+        return lambda values: fraction(values > threshold, weights)
+
+    def are_finite(times: Numbers) -> Numbers:
+        return fraction(np.isfinite(times), weights)
+
+    def quantile_at(probability: float) -> Callable[[Numbers], Numbers]:
+        return lambda values: quantile(values, probability, weights)
+
     found = []
     if quantity.name == "arrival":
         words = f"probability of being reached: thickness above {arrival}"
-        found.append(_Output("reached", "", words, "YlOrRd", reached, True, arrival or ""))
+        found.append(_Output("reached", "", words, "YlOrRd", are_finite, True, arrival or ""))
     elif quantity.name == "thickness" and arrival is None:
         words = f"probability of being reached: maximum flow thickness above {REACHED:g} m"
-        found.append(_Output("reached", "", words, "YlOrRd", _above(REACHED), True, f"{REACHED:g} m"))
+        found.append(_Output("reached", "", words, "YlOrRd", above(REACHED), True, f"{REACHED:g} m"))
     for threshold in thresholds:
         name = f"{quantity.name}_above_{threshold:g}"
         words = f"probability of {quantity.words} above {threshold:g} {quantity.unit}"
-        found.append(_Output(name, "", words, "YlOrRd", _above(threshold), True, f"{threshold:g} {quantity.unit}"))
+        found.append(_Output(name, "", words, "YlOrRd", above(threshold), True, f"{threshold:g} {quantity.unit}"))
     for probability in quantiles:
         percent = f"{100.0 * probability:g}"
         words = f"{percent} % quantile of {quantity.words}"
         found.append(
             _Output(
-                f"{quantity.name}_p{percent}", quantity.unit, words, quantity.colours, _quantile_at(probability), False
+                f"{quantity.name}_p{percent}", quantity.unit, words, quantity.colours, quantile_at(probability), False
             )
         )
     return found
@@ -154,14 +175,6 @@ def arrival_thickness(files: Sequence[Path]) -> str:
     """Return the thickness from which runs count as arrived, with its unit; the key if unknown or different."""
     number = arrival_threshold(files)
     return "maps.arrival_thickness" if number is None else f"{number:g} m"
-
-
-def _above(threshold: float) -> Callable[[Numbers], Numbers]:
-    return lambda values: exceedance(values, threshold)
-
-
-def _quantile_at(probability: float) -> Callable[[Numbers], Numbers]:
-    return lambda values: quantile(values, probability)
 
 
 def _write(

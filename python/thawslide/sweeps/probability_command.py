@@ -18,13 +18,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code: 0 for success, 2 for an error of the user."""
     given = _parser().parse_args(arguments)
     try:
-        rasters = _rasters(given.folder, given.quantity)
+        rasters, weights = _rasters(given.folder, given.quantity)
         output = given.output or _usual_output(given.folder)
         chosen = {name: getattr(given, name) for name in ("thickness", "speed") if getattr(given, name)}
         count = max(map(len, rasters.values()))
         notes: list[str] = []
         quantiles = given.quantiles or QUANTILES
-        for path in write_probability_maps(rasters, output, chosen or None, quantiles, report=notes.append):
+        for path in write_probability_maps(
+            rasters, output, chosen or None, quantiles, weights=weights, report=notes.append
+        ):
             print_line(f"{path}")
         for note in notes:
             print_line(f"thawslide probability: {note}", sys.stderr)
@@ -35,8 +37,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _rasters(paths: Sequence[Path], quantity: str) -> dict[str, Sequence[Path]]:
-    """Return the rasters by quantity: those in folders, or files of one quantity."""
+def _rasters(paths: Sequence[Path], quantity: str) -> tuple[dict[str, Sequence[Path]], list[float] | None]:
+    """Return the rasters by quantity: those in folders, or files of one quantity; and the weights of a sweep's members.
+
+    Members of several sweeps, and other runs, are equally probable.
+    """
     absent = next((path for path in paths if not path.exists()), None)
     if absent is not None:
         raise ReportError(f"{absent}: no such file or folder. Correct the path.")
@@ -44,11 +49,19 @@ def _rasters(paths: Sequence[Path], quantity: str) -> dict[str, Sequence[Path]]:
     if files:
         if len(files) < len(paths):
             raise ReportError("FOLDER: folders and files together. Specify either folders or raster files.")
-        return {quantity: files}
-    folders = [
-        run for path in paths for run in (SweepFolder(path).done_folders() if (path / PLAN).is_file() else [path])
-    ]
-    return dict(rasters_in(folders))
+        return {quantity: files}, None
+    folders: list[Path] = []
+    weights = None
+    for path in paths:
+        if not (path / PLAN).is_file():
+            folders.append(path)
+            continue
+        sweep = SweepFolder(path)
+        done = sweep.done_members()
+        folders += map(sweep.run_folder, done)
+        if len(paths) == 1 and (found := sweep.weights()) is not None:
+            weights = [found.get(number, 0.0) for number in done]
+    return dict(rasters_in(folders)), weights
 
 
 def _unfinished(paths: Sequence[Path]) -> str:

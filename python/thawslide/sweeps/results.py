@@ -16,6 +16,7 @@ from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.variables import CASE
 
 TABLE, CSV = "members.parquet", "members.csv"
+WEIGHT = "weight"  # column of the table, only of members that are not equally probable
 _ABOUT = ("status", "starts", "seed", "wall_s")
 
 
@@ -29,6 +30,8 @@ def table_of(folder: SweepFolder, members: Sequence[Member]) -> pd.DataFrame:
     for key in members[0].changes:
         columns[key] = _scalars(member.changes[key] for member in members)
     columns |= {name: [record.get(name) for record in records] for name in _ABOUT}
+    if (weights := folder.weights()) is not None:
+        columns[WEIGHT] = [weights.get(member.number, 0.0) for member in members]
     for name in names:
         values = [record.get("numbers", {}).get(name) for record in records]
         columns[name] = pd.array([float("nan") if value is None else value for value in values], dtype="float64")

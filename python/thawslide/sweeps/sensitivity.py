@@ -34,19 +34,22 @@ class Index:
     high: float
 
 
-def indices_of(design: Design, values: Numbers) -> list[Index]:
+def indices_of(design: Design, values: Numbers, weights: Numbers | None = None) -> list[Index]:
     """Return the measures that suit a design, from one value per member, in order; nan: a failed member.
 
-    Sobol indices and Morris effects compare members of a block: a failed member removes its block. NotInRunError if
-    too few values are left, or all are equal.
+    Sobol indices and Morris effects compare members of a block: a failed member removes its block. Only rank
+    correlations use weights. NotInRunError if too few values are left, or all are equal, or for weights of another
+    design.
     """
     values = np.asarray(values, dtype=np.float64)
     names = [variable.key for variable in design.dimensions]
+    if weights is not None and design.method in ("saltelli", "morris"):
+        raise NotInRunError(f"the sample {design.method} has no measure for weighted members. Use lhs or sobol.")
     if design.method == "saltelli":
         return _sobol(names, design, values)
     if design.method == "morris":
         return _morris(names, design, values)
-    return _rank(names, _inputs(design), values, design.seed)
+    return _rank(names, _inputs(design), values, design.seed, weights)
 
 
 def _sobol(names: Sequence[str], design: Design, values: Numbers) -> list[Index]:
@@ -93,21 +96,27 @@ def _morris(names: Sequence[str], design: Design, values: Numbers) -> list[Index
     ]
 
 
-def _rank(names: Sequence[str], inputs: Numbers, values: Numbers, seed: int) -> list[Index]:
-    """Return rank correlations with the inputs that are numbers, with percentiles of bootstrap samples."""
-    from scipy.stats import spearmanr
+def _rank(names: Sequence[str], inputs: Numbers, values: Numbers, seed: int, weights: Numbers | None) -> list[Index]:
+    """Return rank correlations with the inputs that are numbers, with percentiles of bootstrap samples.
 
-    kept = np.isfinite(values)
+    Weighted members are drawn in proportion to their weights, as many as their effective number.
+    """
+    kept = np.isfinite(values) if weights is None else np.isfinite(values) & (weights > 0.0)
     inputs, values = inputs[kept], values[kept]
     _require_spread(values, len(values))
     random = np.random.default_rng(seed)
-    samples = random.integers(0, len(values), (_RESAMPLES, len(values)))
+    if weights is None:
+        mass = np.full(len(values), 1.0 / len(values))
+        samples = random.integers(0, len(values), (_RESAMPLES, len(values)))
+    else:
+        mass = weights[kept] / weights[kept].sum()
+        samples = random.choice(len(values), (_RESAMPLES, max(round(effective_number(mass)), _FEWEST)), p=mass)
     found = []
     for index, name in enumerate(names):
         factor = inputs[:, index]
         if not np.ptp(factor) > 0.0:  # constant, or no number
             continue
-        value = float(spearmanr(factor, values).statistic)
+        value = _rank_correlation(factor, values, mass)
         resampled = _rank_correlations(factor[samples], values[samples])
         tail = 50.0 * (1.0 - CONFIDENCE)
         low, high = np.nanpercentile(resampled, [tail, 100.0 - tail])
@@ -115,6 +124,23 @@ def _rank(names: Sequence[str], inputs: Numbers, values: Numbers, seed: int) -> 
     if not found:
         raise NotInRunError("no varied key has numbers as values. Use --range, or --vary with numbers.")
     return found
+
+
+def effective_number(weights: Numbers) -> float:
+    """Return the number of equal members whose mean is as uncertain as that of weighted ones (Kish, 1965)."""
+    return float(weights.sum() ** 2 / np.sum(weights**2))
+
+
+def _rank_correlation(first: Numbers, second: Numbers, weights: Numbers) -> float:
+    """Return the rank correlation of weighted members; a rank is the weight below a value and half of that at it."""
+    a, b = (each - np.sum(weights * each) for each in (_ranks(first, weights), _ranks(second, weights)))
+    return float(np.sum(weights * a * b) / np.sqrt(np.sum(weights * a * a) * np.sum(weights * b * b)))
+
+
+def _ranks(values: Numbers, weights: Numbers) -> Numbers:
+    _, which = np.unique(values, return_inverse=True)
+    at = np.bincount(which, weights)
+    return np.asarray((np.cumsum(at) - 0.5 * at)[which])
 
 
 def _rank_correlations(first: Numbers, second: Numbers) -> Numbers:

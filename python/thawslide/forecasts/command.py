@@ -1,0 +1,149 @@
+"""Command `thawslide forecast`: exit codes as those of `thawslide sweep`."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from thawslide._core import UserError
+from thawslide.case import Case
+from thawslide.commands import print_line
+from thawslide.errors import ReportError
+from thawslide.forecasts.output import prior_lines, write_prior
+from thawslide.forecasts.prior import check_prior, release_volume
+from thawslide.maps import on_map
+from thawslide.number_text import number_text
+from thawslide.pages.events import KINDS
+from thawslide.pages.summary import make_summary
+from thawslide.run_folder import Run
+from thawslide.scores.ensemble import quantiles
+from thawslide.scores.forecast import read_forecast
+from thawslide.sweeps.api import Options, run_sweep
+from thawslide.sweeps.command import report_members
+from thawslide.sweeps.design import Design
+from thawslide.sweeps.design_file import read_sweep_file
+from thawslide.sweeps.folder import DONE, FAILED, PLAN, PRIOR, PRIOR_FILE, SweepFolder
+from thawslide.sweeps.page import weights_of
+
+SWEEP_FILE = "sweep.toml"
+_PRIORS = ("sweep", "events", "none")
+_WITHOUT_WEIGHTS = ("saltelli", "morris")  # samples of indices that have no weighted form
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code."""
+    given = _parser().parse_args(arguments)
+    try:
+        return _forecast(given)
+    except (ReportError, UserError) as error:
+        _print(f"thawslide forecast: error: {error}")
+        return 2
+    except KeyboardInterrupt:
+        _print("interrupted. All finished members are kept. To continue, repeat the command.")
+        return 4
+
+
+def _print(line: str) -> None:
+    print_line(line, sys.stderr)
+
+
+def _forecast(given: argparse.Namespace) -> int:
+    file = given.case / SWEEP_FILE
+    if not file.is_file():
+        raise ReportError(
+            f"{file}: no such file. Write it: its table [sweep] lists the case and the varied keys with their ranges. "
+            "thawslide new writes one for a new case."
+        )
+    design = read_sweep_file(file).design
+    if len(design.cases) > 1:
+        raise ReportError(f"{file}: sweep.cases: several cases (found {len(design.cases)}; allowed 1). Specify one.")
+    if Case(design.cases[0]).dimension != 3:
+        raise ReportError(f"{design.cases[0]}: not a 3D case. For other cases, use: thawslide sweep {file}")
+    is_weighted = given.prior == "events"
+    if is_weighted and design.method in _WITHOUT_WEIGHTS:
+        raise ReportError(f"--prior events: not for the sample {design.method}. Use lhs or sobol in {file}.")
+    output = (given.output or Path("runs") / f"{given.case.resolve().name}-forecast").absolute()
+    say: Callable[[str], None] = (lambda line: None) if given.quiet else _print
+    options = Options(output=output, workers=given.workers, shows_progress=not given.quiet, report=say)
+    if given.prior == "none":
+        (output / PRIOR / PRIOR_FILE).unlink(missing_ok=True)
+    else:
+        _check_prior(design, options, given.kind, is_weighted)
+    folder, table = run_sweep(design, options)
+    _summarize(folder, table, say)
+    return report_members(table, "thawslide forecast")
+
+
+def _check_prior(design: Design, options: Options, kind: str, is_weighted: bool) -> None:
+    """Compute the rigid blocks of all members, and write and print their comparison with events."""
+    assert options.output is not None
+    folder = options.output / PRIOR
+    volume = release_volume(design.cases[0], design.constants)
+    options.report("prior check: rigid blocks of all members")
+    if not (options.output / PLAN).is_file():
+        shutil.rmtree(folder, ignore_errors=True)  # of other ranges, before any member has run
+    blocks = replace(options, output=folder, is_block=True, report=lambda line: None)
+    _, table = run_sweep(design, blocks)
+    failed = table[table["status"] == FAILED]
+    if len(failed) == len(table):
+        raise ReportError(
+            f"{folder}: no rigid block of the {len(table)} members can be computed (first error: "
+            f"{failed['error'].iloc[0]}). Correct the case or the ranges in {SWEEP_FILE}, or use --prior none."
+        )
+    found = check_prior(read_forecast(folder), volume, kind, is_weighted).as_table()
+    write_prior(found, options.output)
+    for line in prior_lines(found):
+        print_line(line)
+
+
+def _summarize(folder: SweepFolder, table: pd.DataFrame, say: Callable[[str], None]) -> None:
+    """Write the summary of the member with the median travel distance."""
+    done = table[table["status"] == DONE]
+    lengths = done["travel_distance_m"].to_numpy(dtype=float) if "travel_distance_m" in done else np.zeros(0)
+    if not np.isfinite(lengths).any():
+        say("note: no summary: no member has a travel distance")
+        return
+    weights = weights_of(done)
+    low, median, high = quantiles(lengths, np.ones(len(done)) if weights is None else weights)
+    number = int(done["member"].to_numpy()[np.flatnonzero(lengths == median)[0]])
+    run = Run(folder.run_folder(number), skip_damaged=True)
+    if not on_map(run):
+        say("note: no summary: only cases on a DEM have one")
+        return
+    context = (
+        f"Of {len(done)} simulations with different parameters, this is number {number}, with the median travel "
+        f"distance. 5 % travel less than {number_text(low)} m, and 5 % more than {number_text(high)} m."
+    )
+    for path in make_summary(run, folder.path, context=context):
+        say(f"summary: {path}")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="thawslide forecast",
+        description="Simulate the members of a case's sweep.toml, after a comparison of their H/L with published "
+        "events. The same command continues an interrupted forecast.",
+    )
+    add = parser.add_argument
+    add("case", metavar="CASE_FOLDER", type=Path, help=f"folder with a case.toml and a {SWEEP_FILE}")
+    add(
+        "--prior", choices=_PRIORS, default="sweep",
+        help="sweep: members are as probable as sweep.toml states (default); events: weighted, so that H/L of their "
+        "rigid blocks has the distribution of published events; none: no prior check",
+    )  # fmt: skip
+    add("--kind", choices=KINDS, default="", help="kind of the published events (default: all)")
+    add("--output", metavar="DIR", type=Path, help="folder of the forecast (default: runs/NAME-forecast)")
+    add("--workers", type=int, default=0, help="processes (default: one per core, as many as fit into memory)")
+    add("--quiet", action="store_true", help="print the prior check, errors and the last line only")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())
