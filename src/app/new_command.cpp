@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,8 @@
 #include "app/commands.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
+#include "base/shell_quote.hpp"
+#include "run/block_model.hpp"
 #include "run/input_files.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
@@ -22,6 +25,7 @@
 #include "config/case_proposal.hpp"
 #include "config/read_case.hpp"
 #include "config/resolution.hpp"
+#include "config/sweep_proposal.hpp"
 #include "gis/dem.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
@@ -210,6 +214,16 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
       rounded_text(cost.steps), run::text_of(cost), others);
 }
 
+// Friction angle above which the release would not have failed without cohesion [degrees]: that of the rigid block, or
+// the slope below the release if the block has no path.
+double steepest_friction(const fs::path& folder, const Raster& ground, const Raster& thickness) {
+  try {
+    return run::equilibrium_friction(config::read_case(folder));
+  } catch (const UserError&) {
+    return std::atan(config::slope_below(ground, thickness)) * 180.0 / std::numbers::pi;
+  }
+}
+
 // Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
 // that refuse the case before its first step.
 std::optional<run::RunCost> cost_of_run(const fs::path& folder) {
@@ -268,6 +282,13 @@ int make_new_case(const NewOptions& options) {
   write_cropped_dem(folder / input.dem_file, site, proposal);
   copy_release(folder, trial);
   write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+  const Raster &ground = *site.ground, &thickness = site.releases.at(body_name).thickness;
+  std::optional<config::Proposal> quick;
+  if (proposal.cell != config::quick_cell(proposal)) {
+    quick = config::propose(ground, thickness, options.reach_angle);
+  }
+  write_file_atomically(folder / "sweep.toml",
+                        config::sweep_text(proposal.thickness, steepest_friction(folder, ground, thickness), quick));
   const std::optional<run::RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
@@ -293,6 +314,7 @@ int make_new_case(const NewOptions& options) {
         with_commas(proposal.particles, 2));
   }
   print_next_commands(options.program, folder);
+  fmt::print("forecast: {} forecast {}\n", shell_quote(options.program), shell_quote(folder.string()));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -119,8 +119,7 @@ double edge_thickness(const ReleaseOnDem& release, const std::vector<int>& steps
   return largest;
 }
 
-// Slope of the mean plane of the terrain.
-double slope_below(const ReleaseOnDem& release, const Raster& dem) {
+double mean_slope(const ReleaseOnDem& release, const Raster& dem) {
   double x = 0.0, y = 0.0, points = 0.0;
   release.for_each_point([&](int column, int row) {
     const double dx = release.ground(column + 1, row) - release.ground(column - 1, row);
@@ -136,6 +135,10 @@ double slope_below(const ReleaseOnDem& release, const Raster& dem) {
 
 }  // namespace
 
+double slope_below(const Raster& dem, const Raster& thickness) {
+  return mean_slope(ReleaseOnDem(dem, thickness, 1), dem);
+}
+
 EdgeTaper propose_taper(const Raster& dem, const Raster& thickness) {
   const double cell = std::min(dem.cell_x, dem.cell_y);
   const double thickest = *std::max_element(thickness.values.begin(), thickness.values.end());
@@ -150,7 +153,7 @@ EdgeTaper propose_taper(const Raster& dem, const Raster& thickness) {
   const int half_width = *std::max_element(inside.begin(), inside.end());
 
   EdgeTaper taper;
-  taper.slope = slope_below(release, dem);
+  taper.slope = mean_slope(release, dem);
   const double edge = edge_thickness(release, inside);
   const double wanted = std::clamp(2.0 * edge / std::max(taper.slope, 1e-9), least_widths * edge, most_widths * edge);
   const double wanted_cells = std::ceil(wanted / cell - 1e-9);

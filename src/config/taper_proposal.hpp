@@ -24,4 +24,7 @@ struct EdgeTaper {
 // taper would reach unknown ground, or reduce the thickness in the middle of the release.
 [[nodiscard]] EdgeTaper propose_taper(const Raster& dem, const Raster& thickness);
 
+// Fall of the mean plane of the terrain below a release, divided by its run.
+[[nodiscard]] double slope_below(const Raster& dem, const Raster& thickness);
+
 }  // namespace thawslide::config

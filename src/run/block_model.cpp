@@ -1,6 +1,8 @@
 #include "run/block_model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
@@ -118,6 +120,17 @@ std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer
   warnings.add(config::notices(parameters));
   return parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters, warnings, observer)
                                                              : block_on_profile(parameters, observer);
+}
+
+double equilibrium_friction(config::Case parameters) {
+  class Silent : public Observer {
+    void text(const std::string& /*line*/) override {}
+    void error(const std::string& /*line*/) override {}
+  } silent;
+  parameters.time.end = parameters.time.history_interval = 1e-3;  // s: the first row is enough
+  const sim::HistoryRow first = block_rows(parameters, silent).front();
+  return std::atan(value_of(first, "driving_traction_Pa") / value_of(first, "normal_pressure_Pa")) * 180.0 /
+         std::numbers::pi;
 }
 
 }  // namespace thawslide::run

@@ -17,4 +17,7 @@ namespace thawslide::run {
 // the terrain ends the motion. Throws UserError.
 [[nodiscard]] std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer);
 
+// Friction angle with which the block is in equilibrium at the start without cohesion [degrees]. Throws UserError.
+[[nodiscard]] double equilibrium_friction(config::Case parameters);
+
 }  // namespace thawslide::run

@@ -62,6 +62,7 @@ def test_new_prints_the_next_commands(binary: Path, tmp_path: Path, slope: Slope
     folder = tmp_path / "a slide"
     outcome = slope.new(folder=folder)
     assert f"preview:  {binary} check '{folder}' --picture\nrun:      {binary} run '{folder}'\n" in outcome.stdout
+    assert f"forecast: {binary} forecast '{folder}'\n" in outcome.stdout
 
 
 CELLS = {"quick": 12.0, "standard": 6.0, "fine": 3.0}  # m, for 24 m

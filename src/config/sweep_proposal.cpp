@@ -1,0 +1,81 @@
+#include "config/sweep_proposal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+#include "config/rule.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+constexpr double tail = 1.645;  // standard deviations from the median of a normal distribution to its P5 and P95
+
+// Median and standard deviation of the logarithm of a lognormal distribution with these P5 and P95.
+std::string lognormal_text(double low, double high) {
+  return fmt::format("[{:.3g}, {:.3g}]", std::sqrt(low * high), 0.5 * std::log(high / low) / tail);
+}
+
+std::string cells_text(const std::optional<Proposal>& quick) {
+  if (!quick) {
+    return "";
+  }
+  const auto point = [](const Point& corner) {
+    return fmt::format("[{}, {}, {}]", number_text(corner[0]), number_text(corner[1]), number_text(corner[2]));
+  };
+  return fmt::format(R"(
+# Cells of `quick`: members are less accurate than a run of case.toml, but many of them are needed.
+[sweep.set]
+"grid.cell" = {}  # m
+"grid.min" = {}
+"grid.max" = {}
+)",
+                     number_text(quick->cell), point(quick->min), point(quick->max));
+}
+
+}  // namespace
+
+std::string sweep_text(double thickness, double steepest, const std::optional<Proposal>& quick) {
+  constexpr double least_friction = 20.0, most_friction = 35.0;  // degrees
+  constexpr double thinnest_band = 0.1, thickest_band = 1.0;     // m
+  constexpr double low_ratio = 0.6, band_ratio = 0.05;
+  const double high = std::clamp(std::floor(steepest), 1.0, most_friction);
+  const double low = std::min(least_friction, std::round(low_ratio * high * 10.0) / 10.0);
+  const double thick = std::min(thickest_band, band_ratio * thickness);
+  const double thin = std::min(thinnest_band, 0.1 * thick);
+  return fmt::format(
+      R"(# Made by `thawslide new` for `thawslide forecast`. Every number may be changed, and keys of the case added.
+# "Assumed" ranges have no published source.
+
+[sweep]
+cases = ["case.toml"]
+sample = "lhs:32"  # Latin hypercube of 32 members
+seed = 1
+{cells}
+[sweep.range]
+# Degrees, before anything has melted. Broken rock has {least:g} to {most:g} degrees (docs/choosing-the-base.md). With
+# more than {steepest:.1f} degrees and no cohesion, the rigid block would not leave. Below {low_ratio:g} of the upper end
+# is assumed to be unlikely.
+"basal.friction_angle" = [{low:g}, {high:g}]
+# Fraction of the friction work that heats the band: range of docs/choosing-the-base.md.
+"basal.heat_fraction" = [0.8, 1.0]
+# Degrees, of the broken material. Assumed: 35 degrees of back-analyses (Hungr and McDougall 2009), and 5 more or less.
+"material.rock_ice.friction_angle" = [30.0, 40.0]
+
+[sweep.lognormal]  # median, and standard deviation of the natural logarithm
+# m: 90 % between {thin:.2g} and {thick:.2g} m. Range for forecasts of docs/choosing-the-base.md, 0.1 to 1 m, but at
+# most a twentieth of the slide, {thickness} m thick. Assumed: a thicker band is no longer a band.
+"band.thickness" = {band}
+# m/s: 90 % between 1e-8 and 1e-5 m/s, the range of docs/choosing-the-base.md.
+"material.rock_ice.hydraulic_conductivity" = {conductivity}
+)",
+      fmt::arg("cells", cells_text(quick)), fmt::arg("least", least_friction), fmt::arg("most", most_friction),
+      fmt::arg("steepest", steepest), fmt::arg("low_ratio", low_ratio), fmt::arg("low", low), fmt::arg("high", high),
+      fmt::arg("thin", thin), fmt::arg("thick", thick), fmt::arg("thickness", rounded_text(thickness, 3)),
+      fmt::arg("band", lognormal_text(thin, thick)), fmt::arg("conductivity", lognormal_text(1e-8, 1e-5)));
+}
+
+}  // namespace thawslide::config

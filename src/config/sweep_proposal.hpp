@@ -1,0 +1,15 @@
+// Initial sweep.toml of a new case: ranges of the keys of the base that `thawslide new` proposes (case_proposal.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "config/case_proposal.hpp"
+
+namespace thawslide::config {
+
+// Sweep file with comments. thickness: of the release [m]. steepest: friction angle above which it would not have
+// failed without cohesion [degrees]. quick: proposal on cells of `quick`, if those of the case are others.
+[[nodiscard]] std::string sweep_text(double thickness, double steepest, const std::optional<Proposal>& quick);
+
+}  // namespace thawslide::config
