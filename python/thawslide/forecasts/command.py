@@ -26,7 +26,7 @@ from thawslide.run_folder import Run
 from thawslide.scores.ensemble import quantiles
 from thawslide.scores.forecast import read_forecast
 from thawslide.sweeps.api import Options, run_sweep
-from thawslide.sweeps.command import report_members
+from thawslide.sweeps.command import report_members, whole_number
 from thawslide.sweeps.design import Design
 from thawslide.sweeps.design_file import read_sweep_file
 from thawslide.sweeps.folder import DONE, FAILED, PLAN, PRIOR, PRIOR_FILE, SweepFolder
@@ -128,8 +128,7 @@ def _summarize(folder: SweepFolder, table: pd.DataFrame, say: Callable[[str], No
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="thawslide forecast",
-        description="Simulate the members of a case's sweep.toml, after a comparison of their H/L with published "
-        "events. The same command continues an interrupted forecast.",
+        description="Simulate the members of sweep.toml after a prior check. The same command continues a forecast.",
     )
     add = parser.add_argument
     add("case", metavar="CASE_FOLDER", type=Path, help=f"folder with a case.toml and a {SWEEP_FILE}")
@@ -140,7 +139,7 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     add("--kind", choices=KINDS, default="", help="kind of the published events (default: all)")
     add("--output", metavar="DIR", type=Path, help="folder of the forecast (default: runs/NAME-forecast)")
-    add("--workers", type=int, default=0, help="processes (default: one per core, as many as fit into memory)")
+    add("--workers", type=whole_number, default=0, help="processes (default: one per core, as many as fit into memory)")
     add("--quiet", action="store_true", help="print the prior check, errors and the last line only")
     return parser
 

@@ -117,7 +117,8 @@ def _names(text: str) -> tuple[str, ...]:
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
-def _count(text: str) -> int:
+def whole_number(text: str) -> int:
+    """Read a whole number of at least 0, for argparse."""
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"not a whole number of at least 0 (found {quoted(text)})")
     return int(text)
@@ -145,7 +146,7 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     forms = ", ".join(f"{method}:N" for method in METHODS)
     add("--sample", metavar="METHOD:N", help=f"sample instead of all combinations: {forms}")
-    add("--seed", type=_count, help="seed of the sample (default: 0)")
+    add("--seed", type=whole_number, help="seed of the sample (default: 0)")
     add("--output", metavar="DIR", type=Path, help="folder of the sweep (default: runs/NAME-sweep)")
     add("--block", action="store_true", help="simulate a rigid block instead, as `thawslide block`")
     add("--column", metavar="NAME=EXPRESSION", action="append", default=[], help="column computed from the history")
@@ -154,9 +155,9 @@ def _parser() -> argparse.ArgumentParser:
     add("--thickness", metavar="M,...", type=numbers, help="thresholds of probability maps [m] (default: 0.5,1,5)")
     add("--speed", metavar="M/S,...", type=numbers, help="thresholds of probability maps [m/s] (default: 1,5,10)")
     add("--csv", action="store_true", help="write the table as CSV too")
-    add("--workers", type=_count, default=0, help="processes (default: one per core, as many as fit into memory)")
+    add("--workers", type=whole_number, default=0, help="processes (default: one per core, as many as fit into memory)")
     add("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, e.g. tcp://node1:8786")
-    add("--max-failures", metavar="N", type=_count, help="stop after more than N failed members")
+    add("--max-failures", metavar="N", type=whole_number, help="stop after more than N failed members")
     add("--retry-failed", action="store_true", help="repeat the members that have failed")
     add("--quiet", action="store_true", help="print errors and the last line only")
     return parser
