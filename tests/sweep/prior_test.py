@@ -135,6 +135,8 @@ def test_a_prior_check_needs_members_that_leave_and_events() -> None:
     with pytest.raises(ReportError, match=r"most rigid blocks still move .* \(found 21 of 40; allowed: at most half\)"):
         check_prior(forecast(ratios, moving=21), VOLUME, "", True)
     assert "no comparison" in check_prior(forecast(ratios), 1e3, "", False).notes[-1]
+    assert "Pink Mountain" in check_prior(forecast(ratios), VOLUME, "", False).events
+    assert "Pink Mountain" not in check_prior(forecast(ratios), VOLUME, "", False, "Pink Mountain").events
     prior = check_prior(forecast([*ratios, np.nan]), VOLUME, "rock", True)
     assert prior.members == list(range(40)) and prior.weights is not None
     assert [row[1] for row in prior.rows()][::2] == [40, len(similar_events(VOLUME, "rock"))]

@@ -75,13 +75,13 @@ def _forecast(given: argparse.Namespace) -> int:
     if given.prior == "none":
         (output / PRIOR / PRIOR_FILE).unlink(missing_ok=True)
     else:
-        _check_prior(design, options, given.kind, is_weighted)
+        _check_prior(design, options, given, is_weighted)
     folder, table = run_sweep(design, options)
     _summarize(folder, table, say)
     return report_members(table, "thawslide forecast")
 
 
-def _check_prior(design: Design, options: Options, kind: str, is_weighted: bool) -> None:
+def _check_prior(design: Design, options: Options, given: argparse.Namespace, is_weighted: bool) -> None:
     """Compute the rigid blocks of all members, and write and print their comparison with events."""
     assert options.output is not None
     folder = options.output / PRIOR
@@ -97,7 +97,7 @@ def _check_prior(design: Design, options: Options, kind: str, is_weighted: bool)
             f"{folder}: no rigid block of the {len(table)} members can be computed (first error: "
             f"{failed['error'].iloc[0]}). Correct the case or the ranges in {SWEEP_FILE}, or use --prior none."
         )
-    found = check_prior(read_forecast(folder), volume, kind, is_weighted).as_table()
+    found = check_prior(read_forecast(folder), volume, given.kind, is_weighted, given.event).as_table()
     write_prior(found, options.output)
     for line in prior_lines(found):
         print_line(line)
@@ -138,6 +138,7 @@ def _parser() -> argparse.ArgumentParser:
         "rigid blocks has the distribution of published events; none: no prior check",
     )  # fmt: skip
     add("--kind", choices=KINDS, default="", help="kind of the published events (default: all)")
+    add("--event", metavar="NAME", default="", help="published event to leave out, because it is the one to forecast")
     add("--output", metavar="DIR", type=Path, help="folder of the forecast (default: runs/NAME-forecast)")
     add("--workers", type=whole_number, default=0, help="processes (default: one per core, as many as fit into memory)")
     add("--quiet", action="store_true", help="print the prior check, errors and the last line only")

@@ -69,8 +69,8 @@ class Prior:
         }
 
 
-def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool) -> Prior:
-    """Compare the blocks with events of a volume [m3] and kind ("" for all).
+def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool, but: str = "") -> Prior:
+    """Compare the blocks with events of a volume [m3] and kind ("" for all), without the event of a name.
 
     ReportError if no block leaves or too few have H/L; with weights, also if the members do not cover the events.
     """
@@ -96,7 +96,7 @@ def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool) -
     notes = list(blocks.notes)
     if stays.any():
         notes.append(f"{stays.sum()} of {len(stays)} blocks do not leave: their H/L is that of the release")
-    events = similar_events(volume, kind)
+    events = similar_events(volume, kind, but)
     if not events:
         what = f"fewer than {LEAST_EVENTS} published events with a volume similar to {volume_text(volume)}"
         if is_weighted:
