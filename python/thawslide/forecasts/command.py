@@ -19,7 +19,7 @@ from thawslide.errors import ReportError
 from thawslide.forecasts.output import prior_lines, write_prior
 from thawslide.forecasts.prior import check_prior, release_volume
 from thawslide.maps import on_map
-from thawslide.number_text import number_text
+from thawslide.number_text import number_text, volume_text
 from thawslide.pages.events import KINDS
 from thawslide.pages.summary import make_summary
 from thawslide.run_folder import Run
@@ -112,14 +112,16 @@ def _summarize(folder: SweepFolder, table: pd.DataFrame, say: Callable[[str], No
         return
     weights = weights_of(done)
     low, median, high = quantiles(lengths, np.ones(len(done)) if weights is None else weights)
-    number = int(done["member"].to_numpy()[np.flatnonzero(lengths == median)[0]])
+    member = done.iloc[int(np.flatnonzero(lengths == median)[0])]
+    number = int(member["member"])
     run = Run(folder.run_folder(number), skip_damaged=True)
     if not on_map(run):
         say("note: no summary: only cases on a DEM have one")
         return
     context = (
-        f"Of {len(done)} simulations with different parameters, this is number {number}, with the median travel "
-        f"distance. 5 % travel less than {number_text(low)} m, and 5 % more than {number_text(high)} m."
+        f"The release has {volume_text(member['release_volume_m3'])}. Of {len(done)} simulations with different "
+        f"parameters, this is number {number}, with the median travel distance. 5 % travel less than "
+        f"{number_text(low)} m, and 5 % more than {number_text(high)} m."
     )
     for path in make_summary(run, folder.path, context=context):
         say(f"summary: {path}")
