@@ -12,11 +12,11 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr double tail = 1.645;  // standard deviations from the median of a normal distribution to its P5 and P95
+constexpr double truncation = 3.0;  // standard deviations, at which sweeps truncate lognormal distributions
 
-// Median and standard deviation of the logarithm of a lognormal distribution with these P5 and P95.
+// Median and standard deviation of the logarithm of a lognormal distribution between two values.
 std::string lognormal_text(double low, double high) {
-  return fmt::format("[{:.3g}, {:.3g}]", std::sqrt(low * high), 0.5 * std::log(high / low) / tail);
+  return fmt::format("[{:.3g}, {:.3g}]", std::sqrt(low * high), 0.5 * std::log(high / low) / truncation);
 }
 
 std::string cells_text(const std::optional<Proposal>& quick) {
@@ -65,11 +65,11 @@ seed = 1
 # Degrees, of the broken material. Assumed: 35 degrees of back-analyses (Hungr and McDougall 2009), and 5 more or less.
 "material.rock_ice.friction_angle" = [30.0, 40.0]
 
-[sweep.lognormal]  # median, and standard deviation of the natural logarithm
-# m: 90 % between {thin:.2g} and {thick:.2g} m. Range for forecasts of docs/choosing-the-base.md, 0.1 to 1 m, but at
-# most a twentieth of the slide, {thickness} m thick. Assumed: a thicker band is no longer a band.
+[sweep.lognormal]  # median, and standard deviation of the natural logarithm; truncated at 3 standard deviations
+# m: between {thin:.2g} and {thick:.2g} m. Range for forecasts of docs/choosing-the-base.md, 0.1 to 1 m, but at most a
+# twentieth of the slide, {thickness} m thick. Assumed: a thicker band is no longer a band.
 "band.thickness" = {band}
-# m/s: 90 % between 1e-8 and 1e-5 m/s, the range of docs/choosing-the-base.md.
+# m/s: between 1e-8 and 1e-5 m/s, the range of docs/choosing-the-base.md.
 "material.rock_ice.hydraulic_conductivity" = {conductivity}
 )",
       fmt::arg("cells", cells_text(quick)), fmt::arg("least", least_friction), fmt::arg("most", most_friction),

@@ -31,7 +31,7 @@ TEST(SweepProposal, TheBandIsAtMostATwentiethOfTheSlide) {
   for (const auto& [thickness, low, high] : {std::array{90.0, 0.1, 1.0}, {20.0, 0.1, 1.0}, {4.0, 0.02, 0.2}}) {
     const toml::table text = sweep_of(thickness, 30.0);
     const double median = number(text, "lognormal", "band.thickness", 0);
-    const double spread = std::exp(1.645 * number(text, "lognormal", "band.thickness", 1));
+    const double spread = std::exp(3.0 * number(text, "lognormal", "band.thickness", 1));
     EXPECT_NEAR(median / spread, low, 0.01 * low);
     EXPECT_NEAR(median * spread, high, 0.01 * high);
   }
