@@ -20,7 +20,7 @@ BAR_STUDIED = 5.0  # mm: cell of the runs that change one parameter
 BAR_FRICTION = "material.bars.friction_angle=21.1"  # degrees: asin(tan(19.8 degrees))
 BAR_HEIGHT = 0.1  # m
 BAR_WINDOW = 0.01  # m, over which surface and failure line are averaged along x
-MOVED = (0.5, 1.0, 2.0, 5.0)  # mm: displacement of moved material
+MOVED = 0.001  # m: displacement of moved material
 TOE_THICKNESS = 0.0015  # m, of the measured surface at its last point
 
 RADIUS = 10.0  # m
@@ -164,7 +164,7 @@ class Bars:
     cell: float
     surface: Numbers  # at the measured positions
     profile: tuple[Numbers, Numbers]
-    failure: dict[float, Numbers]  # at the measured positions, by the displacement of moved material [mm]
+    failure: Numbers  # at the measured positions
     failure_profile: tuple[Numbers, Numbers]
     toe: float
     dilation: float
@@ -174,13 +174,14 @@ class Bars:
         """Computed minus measured surface [mm]."""
         return np.asarray(1e3 * (self.surface - read_points(MEASURED / "surface.csv")[1]))
 
-    def failure_error(self, moved: float) -> Numbers:
-        """Return the computed minus the measured failure line [mm]."""
-        return np.asarray(1e3 * (self.failure[moved] - read_points(MEASURED / "failure.csv")[1]))
+    @property
+    def failure_error(self) -> Numbers:
+        """Computed minus measured failure line [mm]."""
+        return np.asarray(1e3 * (self.failure - read_points(MEASURED / "failure.csv")[1]))
 
     def slope(self) -> float:
-        """Inclination of the failure line [degrees] at a displacement of 1 mm."""
-        return inclination(read_points(MEASURED / "failure.csv")[0], self.failure[1.0])
+        """Inclination of the failure line [degrees]."""
+        return inclination(read_points(MEASURED / "failure.csv")[0], self.failure)
 
 
 def inclination(x: Numbers, height: Numbers) -> float:
@@ -225,8 +226,8 @@ def read_bars(folder: Path, cell: float, particles: int = 2) -> Bars:
         cell,
         thickness(x, volume, places, BAR_WINDOW, size),
         (fine, depth),
-        {each: failure_line(start, moved, failed, 1e-3 * each, size) for each in MOVED},
-        (line, failure_line(start, moved, line, 1e-3, size)),
+        failure_line(start, moved, failed, MOVED, size),
+        (line, failure_line(start, moved, line, MOVED, size)),
         float(fine[depth >= TOE_THICKNESS].max()),
         float(shot["volume"].sum() / volume.sum() - 1.0),
     )
@@ -240,7 +241,6 @@ class Column:
     runout: float  # of 99.5 %
     edge: float  # up to a thickness of EDGE
     profile: tuple[Numbers, Numbers]
-    beyond: float  # fraction of the mass in areas thinner than a 16th of the radius
     gained: float  # energy added by transfers and steps, over the potential energy released
 
 
@@ -261,13 +261,11 @@ def read_column(folder: Path, shape: str, aspect: float, across: int) -> Column:
     depth = thickness(x, volume, at, EDGE_WINDOW, 0.5 * RADIUS / across)
     if shape == "cylinder":
         depth = depth / (0.5 * (np.maximum(at - 0.5 * EDGE_WINDOW, 0.0) + at + 0.5 * EDGE_WINDOW) + AXIS)
-    thin = float(at[depth >= RADIUS / 16.0].max())
     return Column(
         bulk / RADIUS - 1.0,
         front / RADIUS - 1.0,
         float(at[depth >= EDGE].max()) / RADIUS - 1.0,
         (at, depth),
-        float(mass[x > thin].sum() / mass.sum()),
         float(made[-1] / released),
     )
 

@@ -57,7 +57,7 @@ def bars(cell: float, offset: float) -> laboratory.Bars:
     failure = laboratory.read_points(laboratory.MEASURED / "failure.csv")
     lifted = failure[1] + offset
     return laboratory.Bars(
-        cell, surface[1] + offset, (surface[0], surface[1] + offset), dict.fromkeys(laboratory.MOVED, lifted),
+        cell, surface[1] + offset, (surface[0], surface[1] + offset), lifted,
         (failure[0], lifted), 0.442 + offset, 0.02,
     )  # fmt: skip
 
