@@ -1,4 +1,4 @@
-// Limits of the machine: the roofline with which docs/performance.md compares the step.
+// Limits of the machine: the roofline with which benchmarks/README.md compares the step.
 #pragma once
 
 #include <nlohmann/json.hpp>

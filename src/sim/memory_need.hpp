@@ -10,7 +10,7 @@
 namespace thawslide::sim {
 
 // Heap memory divided by particles after a run of 100,000, with grid and nodes [bytes]; measured by benchmarks/speed
-// (docs/performance.md). Thin slides need more per particle, compact ones less.
+// (benchmarks/README.md). Thin slides need more per particle, compact ones less.
 template <int Dim>
 inline constexpr double bytes_of_particle = Dim == 3 ? 655.0 : 631.0;
 
