@@ -55,7 +55,6 @@ ROWS: dict[str, Callable[[Numbered], str]] = {
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
     "displacement of the centre (m)": lambda found: f"{found.centre_displacement:,.0f}",
     "maximum speed (m/s)": lambda found: f"{found.max_speed:.1f}",
-    "maximum speed, median of places reached (m/s)": lambda found: f"{found.usual_speed:.1f}",
     "maximum thickness (m, vertical)": lambda found: f"{found.max_thickness:.1f}",
     "area reached (m2)": lambda found: f"{found.area:,.0f}",
 }
@@ -66,10 +65,7 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     columns = [outcome.program for outcome in outcomes]
     rows = [[what, *(text(each) for each in found)] for what, text in ROWS.items()]
     rows += [
-        ["volume released (m3)", *(f"{outcome.released:,.0f}" for outcome in outcomes)],
-        ["fraction of it that left the DEM", *(f"{100.0 * outcome.left_share:.1f} %" for outcome in outcomes)],
-        ["particles at the start", *(f"{outcome.particles:,}" for outcome in outcomes)],
-        ["simulated (s)", *(f"{outcome.simulated:.0f}" for outcome in outcomes)],
+        ["fraction of the release that left the DEM", *(f"{100.0 * outcome.left_share:.1f} %" for outcome in outcomes)],
         ["run time of one thread (s)", *(f"{outcome.processor:.0f}" for outcome in outcomes)],
     ]
     if point is not None:

@@ -19,11 +19,9 @@ from thawslide.maps import Map
 SHALTOP, THAWSLIDE = "SHALTOP", "Thawslide"
 COLOURS = {SHALTOP: BLUE, THAWSLIDE: RED}
 MARKS = {SHALTOP: "o", THAWSLIDE: "^"}
-PUBLISHED = (760.0, 3080.0, 3.57, 36.5)  # m, m, km2, million m3: Mitchell et al. (2019)
 
 ROWS: dict[str, Callable[[frank.Figures], str]] = {
     "centroid, x (m)": lambda found: f"{found.x:,.0f}",
-    "centroid, y (m)": lambda found: f"{found.y:,.0f}",
     "area of the deposit (km2)": lambda found: f"{found.area:.2f}",
     "area passed (km2)": lambda found: f"{found.passed:.2f}",
     "farthest x (m)": lambda found: f"{found.farthest:,.0f}",
@@ -135,18 +133,6 @@ def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank
     return figure
 
 
-def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
-    """Return the published values, and comparable values of both codes."""
-    head = " | drop (m) | travel distance (m) | H/L | area (km2) | volume (million m3)"
-    rows = {f"{code}, {angle} degrees": (one.drop, one.travel, one.passed, one.volume)
-            for (code, angle), one in found.items()}  # fmt: skip
-    lines = [
-        f"{name} | {drop:.0f} | {travel:,.0f} | {drop / travel:.2f} | {area:.2f} | {volume:.1f}"
-        for name, (drop, travel, area, volume) in ({"Frank slide, Mitchell et al. (2019)": PUBLISHED} | rows).items()
-    ]
-    return markdown([head, *lines])
-
-
 def write(place: Place) -> None:
     """Write the page and its figures from existing runs."""
     data = place.data / "frank"
@@ -176,7 +162,6 @@ def write(place: Place) -> None:
                 apart[angle, f"{THAWSLIDE}, {variant.words}"] = frank.difference(deposit, found[SHALTOP, angle])
     parts = {
         "numbers": main_table(numbers),
-        "published": published_table(numbers),
         "causes": difference_table(rows, apart),
     }
     place.page("docs/frank.md").write_text(text_of("frank.md", parts), encoding="utf-8")

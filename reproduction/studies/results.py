@@ -28,10 +28,7 @@ class Outcome:
     thickness: Map  # maximum, vertical [m]
     speed: Map  # maximum [m/s]
     final_thickness: Map  # vertical [m]
-    particles: int
-    simulated: float  # time at the end [s]
-    released: float  # volume [m3]
-    left_share: float  # fraction of it that left the DEM
+    left_share: float  # fraction of the release that left the DEM
     processor: float  # time on one core [s]
 
     @property
@@ -62,9 +59,6 @@ def read_avaframe(folder: Path, terrain: Map, name: str = "avaframe", words: str
         vertical("pft"),
         found["pfv"],
         vertical("FT"),
-        int(facts["particles"]),
-        float(facts["simulated_s"]),
-        float(facts["released_m3"]),
         float(facts["left_share"]),
         processor_time(folder / name),
     )
@@ -91,15 +85,11 @@ def read_thawslide(folder: Path, terrain: Map, name: str = "thawslide", words: s
         on_grid(read_map(run.folder / "maps" / f"{name}.tif"), terrain)
         for name in ("max_thickness", "max_speed", "final_thickness")
     )
-    volumes = run.snapshot(0, fields=["volume"])["volume"]
     return Outcome(
         ", ".join(part for part in (f"Thawslide {run.facts['version']}", words) if part),
         thickness,
         speed,
         final,
-        len(volumes),
-        float(run.facts["simulated_time_s"]),
-        float(volumes.sum()),
         float(run.history["left_mass_kg"][-1] / run.history["mass_kg"][0]),
         processor_time(folder / name),
     )
@@ -113,7 +103,6 @@ class Numbered:
     reach_angle: float  # of the line between the two [degrees]
     centre_displacement: float  # horizontal, of the centre of the slide, straight from release to deposit [m]
     max_speed: float  # over the area reached [m/s]
-    usual_speed: float  # median of the maximum speed over the area reached [m/s]
     max_thickness: float  # vertical [m]
     area: float  # reached [m2]
 
@@ -139,7 +128,6 @@ def numbers(outcome: Outcome, terrain: Map, corners: list[list[float]]) -> Numbe
         reach_angle=math.degrees(math.atan2(drop, apart[farthest])),
         centre_displacement=math.hypot(deposit[0] - x[source].mean(), deposit[1] - y[source].mean()),
         max_speed=float(speed[reached].max()),
-        usual_speed=float(np.median(speed[reached])),
         max_thickness=float(thickness.max()),
         area=float(np.count_nonzero(reached)) * terrain.grid.cell_area,
     )

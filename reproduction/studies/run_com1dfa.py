@@ -7,7 +7,6 @@ FOLDER/NAME.facts.json (version, particles, times and volumes, AvaFrame's report
 
 import json
 import math
-import re
 import shutil
 import sys
 from importlib.metadata import version
@@ -51,12 +50,6 @@ def prepare(folder: Path, friction_angle: float, name: str, changes: list[str]) 
     return place
 
 
-def particles_in(place: Path) -> int:
-    """Return the number of particles, which only the log of AvaFrame contains."""
-    log = next(iter(place.glob("*.log"))).read_text()
-    return int(re.findall(r"MTot = .* kg, (\d+) particles", log)[0])
-
-
 def main() -> None:
     """Run AvaFrame and write the facts that the comparison needs in addition to the maps."""
     folder, friction_angle, name = Path(sys.argv[1]).resolve(), float(sys.argv[2]), sys.argv[3]
@@ -71,9 +64,6 @@ def main() -> None:
     report = reports[0]["Simulation Parameters"]
     facts = {
         "version": version("avaframe"),
-        "simulated_s": float(report["Process run time [s]"]),
-        "particles": particles_in(place),
-        "released_m3": float(report["Initial mass [kg]"]) / float(report["Density [kgm-3]"]),
         "left_share": 1.0 - float(report["Final mass [kg]"]) / float(report["Initial mass [kg]"]),
         "report": reports[0],
     }

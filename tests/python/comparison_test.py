@@ -79,10 +79,10 @@ def test_numbers_of_a_known_outcome_are_exact() -> None:
     speed[20, 150], speed[20, 205] = 30.0, 99.0
     final[18:23, 190:201] = 3.0
     maps = (Map(terrain.grid, each) for each in (thickness, speed, final))
-    outcome = results.Outcome("X", *maps, 7, 60.0, 1e3, 0.0, 1.0)
+    outcome = results.Outcome("X", *maps, 0.0, 1.0)
     found = results.numbers(outcome, terrain, square(502.5))
     assert (found.area, found.max_speed) == (25.0 * 5 * 105, 30.0)
-    assert (found.usual_speed, found.max_thickness) == (10.0, 2.0)
+    assert found.max_thickness == 2.0
     # From the top of the release, x = 485, its first row at y = 85, to the farthest corner of the area reached.
     assert found.travel == pytest.approx(math.hypot(1_000.0 - 485.0, 110.0 - 85.0))
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(0.5 * (1_000.0 - 485.0), found.travel)))
@@ -107,7 +107,7 @@ def test_the_maps_of_a_figure_have_one_scale() -> None:
     thickness = [np.zeros((30, 40)), np.zeros((30, 40))]
     thickness[0][5:20, 5:20], thickness[1][5:20, 10:25] = 3.0, 8.0
     found = [
-        results.Outcome(name, Map(grid, values), Map(grid, 2.0 * values), Map(grid, values), 1, 1.0, 1.0, 0.0, 1.0)
+        results.Outcome(name, Map(grid, values), Map(grid, 2.0 * values), Map(grid, values), 0.0, 1.0)
         for name, values in zip(("A 1", "B 2, no viscosity"), thickness, strict=True)
     ]
     corners = [[50.0, 50.0], [90.0, 50.0], [90.0, 90.0], [50.0, 50.0]]
