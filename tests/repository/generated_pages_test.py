@@ -53,6 +53,22 @@ def test_every_history_column_is_defined() -> None:
     assert columns - set(re.findall(r"`([^`\n]+)`", call(PROGRAM, "describe", "--outputs"))) == set()
 
 
+def test_the_overview_has_each_page_of_the_navigation_with_a_sentence(tmp_path: Path) -> None:
+    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nnav:\n")[1]
+    pages = set(re.findall(r"- (?:[\w ]+: )?(\S+\.md)", navigation)) - {"docs/pages.md"}
+    for page in pages:
+        if not (ROOT / page).is_file():
+            (tmp_path / page).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / page).write_text("# Generated page\n\nThis page is generated.\n", encoding="utf-8")
+    call(sys.executable, ROOT / "scripts" / "overview-page", tmp_path)
+    text = (tmp_path / "docs" / "pages.md").read_text(encoding="utf-8")
+    listed = {os.path.normpath(f"docs/{path}") for path in re.findall(r"^- \[.+?\]\((.+?)\)", text, re.MULTILINE)}
+    assert len(listed) > 70
+    assert {page for page in pages if not page.startswith("docs/theory/")} == listed
+    entries = re.findall(r"^- .+", text, re.MULTILINE)
+    assert [entry for entry in entries if not re.fullmatch(r"- \[[^]]+\]\([^)]+\): .+\.", entry)] == []
+
+
 def test_the_page_of_reliability_has_the_committed_results_of_all_parts(tmp_path: Path) -> None:
     write_page(ROOT / "docs" / "reliability", tmp_path / "page.md")
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
