@@ -12,11 +12,14 @@ PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
 
 
 @pytest.fixture
-def case(tmp_path: Path) -> Path:
-    text, _ = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+def case(thawslide: Program, tmp_path: Path) -> Path:
+    text, _ = re.findall(r"^ *```toml\n(.*?)^ *```$", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     write_slope(tmp_path / "dem.tif")
     write_rectangle(tmp_path / "release.geojson", WEST + 50.0, SOUTH + 250.0)
-    path = tmp_path / "case.toml"
+    folder = tmp_path / "my-slide"
+    inputs = ["--dem", tmp_path / "dem.tif", "--release", tmp_path / "release.geojson"]
+    thawslide.ok("new", folder, *inputs, "--thickness", 20)
+    path = folder / "voellmy.toml"
     path.write_text(text)
     return path
 
@@ -28,7 +31,7 @@ def test_page_case_is_valid(thawslide: Program, case: Path) -> None:
 
 
 def test_page_case_as_block_stays_below_its_terminal_velocity(thawslide: Program, case: Path, tmp_path: Path) -> None:
-    """On 30 degrees the release, 20 m along the normal, cannot exceed sqrt(xi h (sin - mu cos))."""
+    """On 30 degrees the release, 20 m along the vertical, cannot exceed sqrt(xi h cos (sin - mu cos))."""
     fastest = {}
     for turbulence in ("500", "100"):
         rows = tmp_path / f"block-{turbulence}.csv"
@@ -36,7 +39,7 @@ def test_page_case_as_block_stays_below_its_terminal_velocity(thawslide: Program
         thawslide.ok("block", case, *words)
         fastest[turbulence] = columns_of(rows)["velocity_m_s"].max()
         angle = math.radians(30.0)
-        terminal = math.sqrt(float(turbulence) * 20.0 * (math.sin(angle) - 0.15 * math.cos(angle)))
+        terminal = math.sqrt(float(turbulence) * 20.0 * math.cos(angle) * (math.sin(angle) - 0.15 * math.cos(angle)))
         assert 0.5 * terminal < fastest[turbulence] < 1.02 * terminal
     assert fastest["100"] < fastest["500"]
 
