@@ -1,6 +1,7 @@
 """Hooks of mkdocs for pages at their paths in the repository: files, notebooks, lists as on GitHub, formulas.
 
-mkdocs.yml names this file. The site has the folders of the repository, and the same relative links work in both.
+mkdocs.yml names this file. The site has the folders of the repository, and the same relative links work in both,
+except those to generated pages.
 """
 
 import html

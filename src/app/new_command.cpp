@@ -42,12 +42,15 @@ namespace {
 constexpr double many_particles = 1e6;
 
 // Writes the original DEM, cropped to the domain with a margin of some cells.
-void write_cropped_dem(const fs::path& file, const config::Site& site, const config::Proposal& proposal) {
+void write_cropped_dem(const fs::path& file, const config::Site& site, const config::Proposal& proposal,
+                       const std::optional<config::Proposal>& quick) {
   const Raster& ground = *site.ground;
-  const double margin = 3.0 * proposal.cell;
+  const config::Proposal& coarser = quick ? *quick : proposal;
+  const double margin = 3.0 * coarser.cell;
   const gis::Rectangle about =
-      gis::Rectangle{proposal.min[0], proposal.min[1], proposal.max[0], proposal.max[1]}.widened(
-          margin + 2.0 * ground.cell_x, margin + 2.0 * ground.cell_y);
+      gis::Rectangle{std::min(proposal.min[0], coarser.min[0]), std::min(proposal.min[1], coarser.min[1]),
+                     std::max(proposal.max[0], coarser.max[0]), std::max(proposal.max[1], coarser.max[1])}
+          .widened(margin + 2.0 * ground.cell_x, margin + 2.0 * ground.cell_y);
   const Raster cropped = gis::part_of(ground, gis::points_in(ground, about));
   gis::write_geotiff(file.string(), cropped, {"m", "elevation", site.heights});
 }
@@ -277,16 +280,17 @@ int make_new_case(const NewOptions& options) {
   input.largest_volume = options.maps.largest_volume;
   input.filter = filter_of(trial, proposal);
 
-  NewFolder new_folder(options.folder);
-  const fs::path& folder = new_folder.path();
-  write_cropped_dem(folder / input.dem_file, site, proposal);
-  copy_release(folder, trial);
-  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
   const Raster &ground = *site.ground, &thickness = site.releases.at(body_name).thickness;
-  std::optional<config::Proposal> quick;
-  if (proposal.cell != config::quick_cell(proposal)) {
+  std::optional<config::Proposal> quick;  // of the members of a forecast, if the case has smaller cells
+  if (proposal.cell < config::quick_cell(proposal)) {
     quick = config::propose(ground, thickness, options.reach_angle);
   }
+
+  NewFolder new_folder(options.folder);
+  const fs::path& folder = new_folder.path();
+  write_cropped_dem(folder / input.dem_file, site, proposal, quick);
+  copy_release(folder, trial);
+  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
   write_file_atomically(folder / "sweep.toml",
                         config::sweep_text(proposal.thickness, steepest_friction(folder, ground, thickness), quick));
   const std::optional<run::RunCost> cost = cost_of_run(folder);

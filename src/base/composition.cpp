@@ -87,6 +87,9 @@ std::filesystem::path in_any_composition(const std::filesystem::path& path) {
   if (!path.has_relative_path() || fs::exists(path, error)) {
     return path;
   }
+  if (!path.has_filename()) {  // it ends with a separator
+    return in_any_composition(path.parent_path());
+  }
   const fs::path folder = in_any_composition(path.parent_path());
   const std::string name = composed(path.filename().string());
   for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;

@@ -45,7 +45,7 @@ std::string sweep_text(double thickness, double steepest, const std::optional<Pr
   const double high = std::clamp(std::floor(steepest), 1.0, most_friction);
   const double low = std::min(least_friction, std::round(low_ratio * high * 10.0) / 10.0);
   const double thick = std::min(thickest_band, band_ratio * thickness);
-  const double thin = std::min(thinnest_band, 0.1 * thick);
+  const double thin = std::min(thinnest_band, 0.5 * thick);
   return fmt::format(
       R"(# Made by `thawslide new` for `thawslide forecast`. Every number may be changed, and keys of the case added.
 # "Assumed" ranges have no published source.
@@ -56,9 +56,9 @@ sample = "lhs:32"  # Latin hypercube of 32 members
 seed = 1
 {cells}
 [sweep.range]
-# Degrees, before anything has melted. Broken rock has {least:g} to {most:g} degrees (docs/choosing-the-base.md). With
-# more than {steepest:.1f} degrees and no cohesion, the rigid block would not leave. Below {low_ratio:g} of the upper end
-# is assumed to be unlikely.
+# Degrees, before anything has melted. Assumed: {least:g} to {most:g} degrees, as for the broken body in
+# docs/choosing-the-base.md. With more than {steepest:.1f} degrees and no cohesion, the rigid block would not leave. The
+# lower end is at most {low_ratio:g} of the upper one.
 "basal.friction_angle" = [{low:g}, {high:g}]
 # Fraction of the friction work that heats the band: range of docs/choosing-the-base.md.
 "basal.heat_fraction" = [0.8, 1.0]
@@ -71,6 +71,10 @@ seed = 1
 "band.thickness" = {band}
 # m/s: between 1e-8 and 1e-5 m/s, the range of docs/choosing-the-base.md.
 "material.rock_ice.hydraulic_conductivity" = {conductivity}
+
+# What lies on the path decides as well. If there is a glacier, snow or a valley floor, draw its polygon, add a table
+# [substrate.NAME] with its friction to the case, and [bed] if it can be entrained. Then vary its friction here, e.g.
+# "substrate.glacier.friction_coefficient" = [0.05, 0.15] in [sweep.range] (docs/choosing-the-base.md).
 )",
       fmt::arg("cells", cells_text(quick)), fmt::arg("least", least_friction), fmt::arg("most", most_friction),
       fmt::arg("steepest", steepest), fmt::arg("low_ratio", low_ratio), fmt::arg("low", low), fmt::arg("high", high),

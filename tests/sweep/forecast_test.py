@@ -1,6 +1,8 @@
 """`thawslide forecast` on a small slope: prior check, weights in all results, continuation, and errors."""
 
 import json
+import subprocess
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +13,14 @@ from probability_test import read, write
 from slope_case import write_slope_case
 
 import thawslide
+from thawslide.case import Case
+from thawslide.errors import ReportError
 from thawslide.forecasts.command import main
+from thawslide.program import find_program
 from thawslide.sweeps.api import validated
 from thawslide.sweeps.design_file import read_sweep_file
 from thawslide.sweeps.folder import SweepFolder
+from thawslide.sweeps.outcome import write_outcome
 from thawslide.sweeps.probability_command import main as probability
 
 CELL, COLUMNS, ROWS, NORTH = 40.0, 120, 12, 6_500_480.0
@@ -125,6 +131,11 @@ def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: pytest.Capt
         assert not (tmp_path / "forecast" / "sweep.json").exists()
     file.write_text(SWEEP.replace("lhs:12", "morris:8"))
     assert "--prior events: not for the sample morris. Use lhs or sobol" in error(capfd, slope, "--prior", "events")
+    file.write_text(SWEEP)
+    found = error(capfd, slope, "--event", "Pink Mountian")
+    assert "--event: no published event" in found and "did you mean pink mountain?" in found
+    file.write_text(SWEEP.replace("seed = 1", "seed = 1\nblock = true"))
+    assert "sweep.block: a forecast needs runs" in error(capfd, slope, *output)
     file.unlink()
     words = "sweep.toml: no such file. Write it: its table [sweep] lists the case and the varied keys"
     assert words in error(capfd, slope, *output)
@@ -144,6 +155,46 @@ def test_blocks_that_cannot_be_computed_are_reported(
     (slope / "case.toml").write_text(CASE + second)
     found = error(capfd, slope, "--output", tmp_path / "other", "--workers", 1)
     assert "no rigid block of the 12 members can be computed (first error:" in found and "or use --prior none." in found
+
+
+def test_folders_of_others_are_left_alone(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    for kept in (tmp_path / "work" / "prior" / "notes.txt", tmp_path / "other" / "notes.txt"):
+        kept.parent.mkdir(parents=True)
+        kept.write_text("mine")
+        output = tmp_path / kept.relative_to(tmp_path).parts[0]
+        for prior in ("sweep", "none"):
+            found = error(capfd, slope, "--output", output, "--prior", prior)
+            assert "not empty, and not of a forecast. Specify another --output." in found
+        assert kept.read_text() == "mine"
+
+
+def test_members_without_weight_alone_give_no_results(tmp_path: Path) -> None:
+    members = pd.DataFrame({"member": [0, 1], "status": ["done", "done"], "weight": [0.0, 0.0]})
+    design = read_sweep_file(sweep_file(tmp_path)).design
+    with pytest.raises(ReportError, match="no member with a weight is done"):
+        write_outcome(SweepFolder(tmp_path), design, members, [], None, "maps", print)
+
+
+def sweep_file(folder: Path) -> Path:
+    (folder / "case.toml").write_text(CASE)
+    (folder / "sweep.toml").write_text(SWEEP)
+    return folder / "sweep.toml"
+
+
+def test_members_of_fine_cases_have_their_ground(tmp_path: Path, with_program: None) -> None:
+    folder, x = tmp_path / "slide", np.arange(400) * 10.0
+    write(tmp_path / "dem.tif", np.tile(3000.0 - 0.6 * x, (300, 1)), 400_000.0, NORTH, 10.0)
+    thickness = np.zeros((300, 400))
+    thickness[140:160, 100:130] = 40.0
+    write(tmp_path / "thickness.tif", thickness, 400_000.0, NORTH, 10.0)
+    thawslide.new_case(
+        tmp_path / "dem.tif", tmp_path / "thickness.tif", folder, reach_angle=26.0, resolution="fine", on_message=print
+    )
+    cells = tomllib.loads((folder / "sweep.toml").read_text())["sweep"]["set"]
+    assert cells["grid.cell"] > Case(folder)["grid.cell"]
+    sets = [word for key, value in cells.items() for word in ("--set", f"{key}={value}")]
+    done = subprocess.run([str(find_program()), "check", str(folder), *sets], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_design_of_a_2d_case_is_for_sweep(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

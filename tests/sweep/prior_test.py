@@ -141,3 +141,12 @@ def test_a_prior_check_needs_members_that_leave_and_events() -> None:
     assert prior.members == list(range(40)) and prior.weights is not None
     assert [row[1] for row in prior.rows()][::2] == [40, len(similar_events(VOLUME, "rock"))]
     assert prior.rows()[1][3] == pytest.approx(prior.rows()[2][3], abs=0.02)
+
+
+def test_members_that_do_not_leave_have_no_weight() -> None:
+    blocks = forecast(list(np.linspace(0.1, 0.6, 40)))
+    blocks.columns["displacement_m"][::4] = 0.0
+    prior = check_prior(blocks, VOLUME, "", True)
+    assert prior.members == [number for number in range(40) if number % 4] and prior.weights is not None
+    assert prior.weights.sum() == pytest.approx(1.0)
+    assert "10 of 40 blocks do not leave: they have no weight" in prior.notes[-1]

@@ -15,12 +15,12 @@ import pandas as pd
 from thawslide._core import UserError
 from thawslide.case import Case
 from thawslide.commands import print_line
-from thawslide.errors import ReportError
+from thawslide.errors import ReportError, nearest, quoted
 from thawslide.forecasts.output import prior_lines, write_prior
 from thawslide.forecasts.prior import check_prior, release_volume
 from thawslide.maps import on_map
 from thawslide.number_text import number_text, volume_text
-from thawslide.pages.events import KINDS
+from thawslide.pages.events import KINDS, published_events
 from thawslide.pages.summary import make_summary
 from thawslide.run_folder import Run
 from thawslide.scores.ensemble import quantiles
@@ -61,7 +61,14 @@ def _forecast(given: argparse.Namespace) -> int:
             f"{file}: no such file. Write it: its table [sweep] lists the case and the varied keys with their ranges. "
             "thawslide new writes one for a new case."
         )
-    design = read_sweep_file(file).design
+    found = read_sweep_file(file)
+    design = found.design
+    if found.is_block:
+        raise ReportError(
+            f"{file}: sweep.block: a forecast needs runs (found true). Remove it, or use: thawslide sweep"
+        )
+    if given.event and given.event.casefold() not in (names := {one.name.casefold() for one in published_events()}):
+        raise ReportError(f"--event: no published event {quoted(given.event)}{nearest(given.event, sorted(names))}")
     if len(design.cases) > 1:
         raise ReportError(f"{file}: sweep.cases: several cases (found {len(design.cases)}; allowed 1). Specify one.")
     if Case(design.cases[0]).dimension != 3:
@@ -71,7 +78,14 @@ def _forecast(given: argparse.Namespace) -> int:
         raise ReportError(f"--prior events: not for the sample {design.method}. Use lhs or sobol in {file}.")
     output = (given.output or Path("runs") / f"{given.case.resolve().name}-forecast").absolute()
     say: Callable[[str], None] = (lambda line: None) if given.quiet else _print
-    options = Options(output=output, workers=given.workers, shows_progress=not given.quiet, report=say)
+    options = Options(
+        output=output,
+        expressions=found.expressions,
+        workers=given.workers,
+        shows_progress=not given.quiet,
+        report=say,
+    )
+    _require_own(output)
     if given.prior == "none":
         (output / PRIOR / PRIOR_FILE).unlink(missing_ok=True)
     else:
@@ -79,6 +93,14 @@ def _forecast(given: argparse.Namespace) -> int:
     folder, table = run_sweep(design, options)
     _summarize(folder, table, say)
     return report_members(table, "thawslide forecast")
+
+
+def _require_own(output: Path) -> None:
+    """Raise ReportError for a folder with other files than those of a forecast, which would be removed or mixed."""
+    for folder in (output, output / PRIOR):
+        is_foreign = folder.is_dir() and not (folder / PLAN).is_file()
+        if is_foreign and any(each.name != PRIOR or each.parent != output for each in folder.iterdir()):
+            raise ReportError(f"{folder}: not empty, and not of a forecast. Specify another --output.")
 
 
 def _check_prior(design: Design, options: Options, given: argparse.Namespace, is_weighted: bool) -> None:
@@ -89,7 +111,7 @@ def _check_prior(design: Design, options: Options, given: argparse.Namespace, is
     options.report("prior check: rigid blocks of all members")
     if not (options.output / PLAN).is_file():
         shutil.rmtree(folder, ignore_errors=True)  # of other ranges, before any member has run
-    blocks = replace(options, output=folder, is_block=True, report=lambda line: None)
+    blocks = replace(options, output=folder, is_block=True, expressions=(), report=lambda line: None)
     _, table = run_sweep(design, blocks)
     failed = table[table["status"] == FAILED]
     if len(failed) == len(table):
@@ -111,6 +133,7 @@ def _summarize(folder: SweepFolder, table: pd.DataFrame, say: Callable[[str], No
         say("note: no summary: no member has a travel distance")
         return
     weights = weights_of(done)
+    by = "" if weights is None else ", weighted by published events"
     low, median, high = quantiles(lengths, np.ones(len(done)) if weights is None else weights)
     member = done.iloc[int(np.flatnonzero(lengths == median)[0])]
     number = int(member["member"])
@@ -120,7 +143,7 @@ def _summarize(folder: SweepFolder, table: pd.DataFrame, say: Callable[[str], No
         return
     context = (
         f"The release has {volume_text(member['release_volume_m3'])}. Of {len(done)} simulations with different "
-        f"parameters, this is number {number}, with the median travel distance. 5 % travel less than "
+        f"parameters, this is number {number}, with the median travel distance{by}. 5 % travel less than "
         f"{number_text(low)} m, and 5 % more than {number_text(high)} m."
     )
     for path in make_summary(run, folder.path, context=context):

@@ -90,12 +90,16 @@ def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool, b
     moving = int(np.count_nonzero(blocks.columns[MOVES][known]))
     if is_weighted and moving > 0.5 * len(stays):
         raise ReportError(
-            f"--prior events: most rigid blocks still move at the end of their path (found {moving} of {len(stays)}; "
-            "allowed: at most half). Set maps.path to a longer line, use a larger DEM, or use --prior sweep."
+            f"--prior events: most rigid blocks still move at the end of their path or at time.end (found {moving} of "
+            f"{len(stays)}; allowed: at most half). Set maps.path to a longer line, use a larger DEM, raise time.end, "
+            "or use --prior sweep."
         )
     notes = list(blocks.notes)
     if stays.any():
-        notes.append(f"{stays.sum()} of {len(stays)} blocks do not leave: their H/L is that of the release")
+        what = "they have no weight, because every event left" if is_weighted else "their H/L is that of the release"
+        notes.append(f"{stays.sum()} of {len(stays)} blocks do not leave: {what}")
+    if is_weighted:
+        known[np.flatnonzero(known)[stays]] = False
     events = similar_events(volume, kind, but)
     if not events:
         what = f"fewer than {LEAST_EVENTS} published events with a volume similar to {volume_text(volume)}"

@@ -36,7 +36,9 @@ QUANTITIES = {
     "inundated_area": Quantity(
         "inundated area", AREAS, "inundated_area_m2", "horizontal, ever thicker than maps.area_thickness"
     ),
-    "deposit_volume": Quantity("deposit volume", VOLUMES, "covered_volume_m3", "at the end"),
+    "deposit_volume": Quantity(
+        "deposit volume", VOLUMES, "covered_volume_m3", "at the end, thicker than maps.arrival_thickness"
+    ),
 }
 THICKNESS = Quantity("thickness", LENGTHS, "", "vertical, in the map cell that contains the point")
 FORCE = Quantity("maximum vertical force", FORCES, "", "maximum magnitude in the band of the record")

@@ -74,7 +74,7 @@ def numbers_of_block(rows: Mapping[str, Numbers], expressions: Sequence[Expressi
         "simulated_time_s": float(rows["time_s"][-1]),
         "drop_height_m": height,
         "travel_distance_m": length,
-        "h_over_l": height / length if length > 0.0 else None,
+        "h_over_l": height / length if length > 0.0 and height > 0.0 else None,
         "peak_speed_m_s": _peak(rows["velocity_m_s"]),
         "displacement_m": float(rows["displacement_m"][-1]),
         "runout_m": float(rows["front_position_m"][-1] - rows["front_position_m"][0]),

@@ -32,6 +32,11 @@ def write_outcome(
     finished = members[members["status"] == DONE]
     done = [folder.run_folder(int(number)) for number in finished["member"]]
     weights = finished[WEIGHT].to_list() if WEIGHT in finished else None
+    if weights and not sum(weights) > 0.0:
+        raise ReportError(
+            f"{folder.path}: no member with a weight is done (found {len(weights)} without one). Read the errors in "
+            "members.parquet, or use --prior sweep."
+        )
     maps = probability_maps_of(folder, done, thresholds, report, weights)
     page = write_page(folder, design, members, results, maps)
     report(f"page: {page}")

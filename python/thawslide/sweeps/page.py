@@ -66,7 +66,9 @@ def write_page(
     parts.append(stored_section(folder.path))
     if maps:
         terrain = maps[0].with_name("terrain.tif")
-        parts += _figure("Probability maps", _maps_caption(maps), lambda: probability_maps(maps, terrain, len(done)))
+        parts += _figure(
+            "Probability maps", _maps_caption(maps, WEIGHT in done), lambda: probability_maps(maps, terrain, len(done))
+        )
         links = ((path.name, "GeoTIFF with a QGIS style") for path in maps)
         parts.append(details(f"{len(maps)} files in the folder {maps[0].parent.name}", table(links, "facts")))
     if count[FAILED]:
@@ -86,9 +88,10 @@ _SENSITIVITY = {
 }
 
 
-def _maps_caption(maps: Sequence[Path]) -> str:
+def _maps_caption(maps: Sequence[Path], is_weighted: bool) -> str:
     """Return the caption of the maps, with the thickness from which a cell is reached."""
-    caption = "Fraction of the members that reach a cell or exceed a threshold, and quantiles over all members."
+    of_members = "Weight" if is_weighted else "Fraction"
+    caption = f"{of_members} of the members that reach a cell or exceed a threshold, and quantiles over all members."
     path = next((each for each in maps if each.stem == "reached"), None)
     threshold = threshold_of(path) if path else ""
     return f"{caption} Reached: thickness above {threshold}." if threshold else caption

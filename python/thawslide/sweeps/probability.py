@@ -110,8 +110,8 @@ def write_probability_maps(
             stack = RasterStack(files, QUANTITIES[name].kind)
             for note in stack.notes:
                 report(note)
-            # The order of weighted members needs as much memory again as their values.
-            of_values = memory if given is None else 0.5 * memory
+            # The order and the sums of weighted members need three times the memory of their values.
+            of_values = memory if given is None else 0.25 * memory
             written += _write(stack, QUANTITIES[name], outputs, output, of_values, report)
     except OSError as error:
         raise ReportError(

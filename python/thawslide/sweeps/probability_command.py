@@ -59,8 +59,12 @@ def _rasters(paths: Sequence[Path], quantity: str) -> tuple[dict[str, Sequence[P
         sweep = SweepFolder(path)
         done = sweep.done_members()
         folders += map(sweep.run_folder, done)
-        if len(paths) == 1 and (found := sweep.weights()) is not None:
+        if (found := sweep.weights()) is not None and len(paths) == 1:
             weights = [found.get(number, 0.0) for number in done]
+        elif found is not None:
+            print_line(
+                f"thawslide probability: note: {path}: its weights do not count beside other folders", sys.stderr
+            )
     return dict(rasters_in(folders)), weights
 
 

@@ -28,7 +28,8 @@ TEST(SweepProposal, FrictionIsAtMostThatOfTheBlock) {
 }
 
 TEST(SweepProposal, TheBandIsAtMostATwentiethOfTheSlide) {
-  for (const auto& [thickness, low, high] : {std::array{90.0, 0.1, 1.0}, {20.0, 0.1, 1.0}, {4.0, 0.02, 0.2}}) {
+  for (const auto& [thickness, low, high] :
+       {std::array{90.0, 0.1, 1.0}, {20.0, 0.1, 1.0}, {4.0, 0.1, 0.2}, {1.0, 0.025, 0.05}}) {
     const toml::table text = sweep_of(thickness, 30.0);
     const double median = number(text, "lognormal", "band.thickness", 0);
     const double spread = std::exp(3.0 * number(text, "lognormal", "band.thickness", 1));

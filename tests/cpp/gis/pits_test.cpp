@@ -56,6 +56,19 @@ TEST(PitsTest, ValidGroundCausesNoWarning) {
   EXPECT_NE(warning_of(coast(false)), "");
 }
 
+TEST(PitsTest, AThicknessInPlaceOfADemIsNamedByItsEdge) {
+  const auto edged = [](double edge, double inside) {
+    return raster_of(
+        [=](double x, double y) { return x > west && y > south && x < 8.0 + west && y < 8.0 + south ? inside : edge; },
+        west, south, 2.0, 5, 5);
+  };
+  EXPECT_NE(thickness_warning("folder/dem.tif", edged(0.0, 20.0)).find("is it a raster of the thickness"),
+            std::string::npos);
+  EXPECT_EQ(thickness_warning("dem.tif", edged(std::nan(""), 20.0)), "");
+  EXPECT_EQ(thickness_warning("dem.tif", edged(0.0, 0.0)), "");
+  EXPECT_EQ(thickness_warning("dem.tif", edged(1.0, 20.0)), "");
+}
+
 TEST(PitsTest, LoadingTheSiteWarnsOfThem) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
   Raster dem = ground();
