@@ -63,7 +63,7 @@ def _rasters(paths: Sequence[Path], quantity: str) -> tuple[dict[str, Sequence[P
             weights = [found.get(number, 0.0) for number in done]
         elif found is not None:
             print_line(
-                f"thawslide probability: note: {path}: its weights do not count beside other folders", sys.stderr
+                f"thawslide probability: note: {path}: with several folders its weights do not count", sys.stderr
             )
     return dict(rasters_in(folders)), weights
 
