@@ -150,7 +150,7 @@ def test_new_accepts_a_raster_of_the_thickness(ran: Ran, tmp_path: Path, slope: 
     raster = write_thickness(tmp_path / "elsewhere" / "dem.tif", dem, THICKNESS)
     folder = tmp_path / "slide"
     slope.ok(release=raster, thickness=None)
-    assert {path.name for path in folder.iterdir()} == {"case.toml", "dem.tif", "terrain.tif"}
+    assert {path.name for path in folder.iterdir()} == {"case.toml", "sweep.toml", "dem.tif", "terrain.tif"}
     assert (folder / "dem.tif").read_bytes() == raster.read_bytes()
     case = tomllib.loads((folder / "case.toml").read_text())
     assert case["terrain"]["file"] == "terrain.tif"
