@@ -248,7 +248,7 @@ def section_with_line(reader: Reader, file: Path) -> float:
 
 @pytest.fixture(scope="module")
 def plain(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with a plain DEM, the surface before the release, polygons, the case made of them, and its run."""
+    """Return a folder with a plain DEM, the surface before the release, polygons, their case, and its run."""
     folder = tmp_path_factory.mktemp("plain")
     dem = odd.raster(folder / "dem.tif", odd.heights())
     odd.raster(folder / "before.tif", odd.heights() + odd.thickness())
