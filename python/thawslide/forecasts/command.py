@@ -68,7 +68,8 @@ def _forecast(given: argparse.Namespace) -> int:
             f"{file}: sweep.block: a forecast needs runs (found true). Remove it, or use: thawslide sweep"
         )
     if given.event and given.event.casefold() not in (names := {one.name.casefold() for one in published_events()}):
-        raise ReportError(f"--event: no published event {quoted(given.event)}{nearest(given.event, sorted(names))}")
+        near = nearest(given.event, sorted(names))
+        raise ReportError(f"--event: no published event {quoted(given.event)}{near} Correct it, or leave it out.")
     if len(design.cases) > 1:
         raise ReportError(f"{file}: sweep.cases: several cases (found {len(design.cases)}; allowed 1). Specify one.")
     if Case(design.cases[0]).dimension != 3:
