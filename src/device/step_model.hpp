@@ -1,4 +1,4 @@
-// Data exchanged between the run and a step on a device: model, host callbacks and sums.
+// Data exchanged between the run and a step on a device: model and host callbacks.
 #pragma once
 
 #include <algorithm>
@@ -9,24 +9,20 @@
 
 #include "band/at_columns.hpp"
 #include "band/heat_face.hpp"
-#include "band/nodal_heat.hpp"
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"
-#include "band/step_extremes.hpp"
+#include "device/step_sums.hpp"
 #include "mpm/domain_faces.hpp"
-#include "mpm/kernel_totals.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/mapping.hpp"
 #include "mpm/material.hpp"
 #include "mpm/records.hpp"
 #include "mpm/shape.hpp"
-#include "mpm/stress_kernel.hpp"
 #include "mpm/tile.hpp"
 #include "physics/mixture.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/bed_node.hpp"
 #include "terrain/column_heights.hpp"
-#include "terrain/contact_work.hpp"
 #include "terrain/ground_at_node.hpp"
 
 namespace thawslide::device {
@@ -137,23 +133,6 @@ struct MapSample {
   std::vector<std::uint64_t> keys;  // of cells below the active tiles, ascending (mpm::map_cell_key)
   std::vector<mpm::MapSums> sums;   // by key
   mpm::MassMoments moments;
-};
-
-// Sums over particles and nodes of one step; energies [J].
-template <int Dim>
-struct StepSums {
-  terrain::ContactWork<Dim> contact;
-  Real particle_kinetic = 0;  // as in mpm::MoveWork
-  Real filtered = 0;          // kinetic energy added by the velocity filter
-  Real mapped_back = 0;       // work of internal forces at mid-step velocities minus that at mapped-back velocities
-  mpm::Deformed deformed;
-  Real band_rescale = 0;  // heat added by changes of scaling
-  band::HeatGain heat;
-  band::DrainedWater drained;    // at the surface
-  Real vented = 0;               // water lost to frozen pores [kg]
-  mpm::InvalidParticle invalid;  // after particles have moved
-  band::StepExtremes extremes;
-  std::uint64_t escapes = 0;  // particles outside the domain, or in a block with partly unknown ground
 };
 
 }  // namespace thawslide::device

@@ -28,4 +28,16 @@ struct BetweenBodies {
   }
 };
 
+// Contribution of contact between bodies to the energy budget [J].
+struct BodyContactWork {
+  Real loss = 0;       // dissipated by impact and friction
+  Real numerical = 0;  // correction of map_back, which counts contact among internal forces
+
+  THAWSLIDE_HD BodyContactWork& operator+=(const BodyContactWork& part) {
+    loss += part.loss;
+    numerical += part.numerical;
+    return *this;
+  }
+};
+
 }  // namespace thawslide::mpm

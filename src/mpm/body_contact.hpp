@@ -15,18 +15,6 @@
 
 namespace thawslide::mpm {
 
-// Contribution of contact between bodies to the energy budget [J].
-struct BodyContactWork {
-  Real loss = 0;       // dissipated by impact and friction
-  Real numerical = 0;  // correction of map_back, which counts contact among internal forces
-
-  BodyContactWork& operator+=(const BodyContactWork& part) {
-    loss += part.loss;
-    numerical += part.numerical;
-    return *this;
-  }
-};
-
 template <int Dim>
 class BodyContact {
  public:

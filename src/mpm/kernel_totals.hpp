@@ -53,4 +53,16 @@ struct InvalidParticle {
   }
 };
 
+// Results of straining: energies, and the invalid particle of smallest id.
+struct Deformed {
+  StressWork work;
+  InvalidParticle invalid;
+
+  THAWSLIDE_HD Deformed& operator+=(const Deformed& part) {
+    work += part.work;
+    invalid += part.invalid;
+    return *this;
+  }
+};
+
 }  // namespace thawslide::mpm

@@ -59,34 +59,32 @@ Real momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, co
 }
 
 template <int Dim>
-MoveWork move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
-                        Nodes<Dim>& nodes) {
-  MoveWork work;
+Real move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
+                    Nodes<Dim>& nodes) {
+  Real particle_kinetic = 0;
   with_weights(model, [&](const auto& weights) {
     const Real pic_fraction = is_affine<std::decay_t<decltype(weights)>> ? Real(1) : model.pic_fraction;
-    work.particle_kinetic =
+    particle_kinetic =
         std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim>{pic_fraction, dt}));
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
-      work.particle_kinetic +=
-          std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, MoveAffine<Dim>{dt}));
+      particle_kinetic += std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, MoveAffine<Dim>{dt}));
     }
   });
-  return work;
+  return particle_kinetic;
 }
 
 template <int Dim>
-void update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
-                      InvalidParticle& invalid) {
-  invalid += for_particles_in_memory(particles, UpdatePosition<Dim>{lower, upper});
+InvalidParticle update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower,
+                                 const Vector<Real, Dim>& upper) {
+  return for_particles_in_memory(particles, UpdatePosition<Dim>{lower, upper});
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
   template void split_total_stress<Dim>(Particles<Dim>&, std::size_t);                                                \
   template Real momentum_to_grid<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Nodes<Dim>&); \
-  template MoveWork move_particles<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Real,       \
-                                        Nodes<Dim>&);                                                                 \
-  template void update_positions<Dim>(Particles<Dim>&, const Vector<Real, Dim>&, const Vector<Real, Dim>&,            \
-                                      InvalidParticle&);
+  template Real move_particles<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Real,           \
+                                    Nodes<Dim>&);                                                                     \
+  template InvalidParticle update_positions<Dim>(Particles<Dim>&, const Vector<Real, Dim>&, const Vector<Real, Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -41,13 +41,6 @@ struct MotionModel {
   bool lubrication = true;        // off: Eq. 25 uses the initial porosity and saturation (Sec. 3.3)
 };
 
-// Energy change by moving the particles.
-struct MoveWork {
-  // Kinetic energy gained by particles minus sum p_i.dv_i over the nodes [J]; sum m |dv_p|^2/2 in FLIP. Subtracting sum
-  // m_i |dv_i|^2/2 gives the energy created by the transfers between particles and nodes.
-  Real particle_kinetic = 0;
-};
-
 // Converts total to effective stress, sigma + P I, of particles at memory index `first` and above.
 template <int Dim>
 void split_total_stress(Particles<Dim>& particles, std::size_t first = 0);
@@ -60,21 +53,21 @@ Real momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, co
 
 // Computes new velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign)
 // from nodal motion; then adds the particles' momentum to the patches of nodes.velocity (MUSL), without summing these.
-// update_positions applies the displacement.
+// update_positions applies the displacement. Returns the kinetic energy gained by particles minus sum p_i.dv_i over the
+// nodes [J]; sum m |dv_p|^2/2 in FLIP. Subtracting sum m_i |dv_i|^2/2 gives the energy created by the transfers.
 template <int Dim>
-MoveWork move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
-                        Nodes<Dim>& nodes);
+Real move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
+                    Nodes<Dim>& nodes);
 
 // Updates strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back
 // velocities.
 template <int Dim>
-StressWork update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
-                                      const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes,
-                                      InvalidParticle& invalid);
+Deformed update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
+                                    const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes);
 
-// Applies the displacement of the step; reports a particle that is not finite or outside [lower, upper].
+// Applies the displacement of the step; returns a particle that is not finite or outside [lower, upper].
 template <int Dim>
-void update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
-                      InvalidParticle& invalid);
+[[nodiscard]] InvalidParticle update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower,
+                                               const Vector<Real, Dim>& upper);
 
 }  // namespace thawslide::mpm

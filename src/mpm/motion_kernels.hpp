@@ -108,7 +108,7 @@ struct AddAffineMomentum {
 };
 
 // New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign); then the
-// particles' momentum back to the nodes (MUSL). Sums the kinetic energy of MoveWork.
+// particles' momentum back to the nodes (MUSL). Sums the kinetic energy that move_particles returns.
 template <int Dim>
 struct Move {
   using Reads = RecordList<Motion>;

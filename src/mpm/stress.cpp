@@ -7,22 +7,19 @@
 namespace thawslide::mpm {
 
 template <int Dim>
-StressWork update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
-                                      const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes,
-                                      InvalidParticle& invalid) {
+Deformed update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
+                                    const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes) {
   const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
-  const Deformed deformed = with_width<Dim>(model.width, [&](const auto& width) {
+  return with_width<Dim>(model.width, [&](const auto& width) {
     const UpdateStress<Dim, std::decay_t<decltype(width)>> update{model.materials.data(), model.phases,
                                                                   model.effective_stress, dt, width};
     return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
   });
-  invalid += deformed.invalid;
-  return deformed.work;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                             \
-  template StressWork update_stress_and_porosity<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, \
-                                                      const MotionModel<Dim>&, Real, Nodes<Dim>&, InvalidParticle&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
+  template Deformed update_stress_and_porosity<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, \
+                                                    Real, Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

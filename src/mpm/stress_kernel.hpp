@@ -23,18 +23,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTen
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + Value(2) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-// Results of straining: energies, and the invalid particle of smallest id.
-struct Deformed {
-  StressWork work;
-  InvalidParticle invalid;
-
-  THAWSLIDE_HD Deformed& operator+=(const Deformed& part) {
-    work += part.work;
-    invalid += part.invalid;
-    return *this;
-  }
-};
-
 // Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities, for particles of one
 // material with the constitutive law Law.
 template <int Dim, class Law, class Width = EvenWidth>

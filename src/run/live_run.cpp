@@ -70,12 +70,13 @@ class LiveRunOf final : public LiveRun {
     }
     try {
       simulation_->step(simulation_->next_step(std::min(snapshot_schedule_.next(), parameters().time.end)), strength);
+      end_text_ = simulation_->left_text();
+      if (!end_text_.empty()) {
+        records_.slide_left();
+        add_row();
+        return;
+      }
       records_.after_step(*simulation_);
-    } catch (const sim::SlideLeft& end) {
-      end_text_ = end.what();
-      records_.slide_left();
-      add_row();
-      return;
     } catch (const RunError&) {
       add_row();
       throw;

@@ -110,17 +110,14 @@ class Loop {
     try {
       while (must_continue()) {
         step();
+        if (!simulation_.left_text().empty()) {
+          return end_without_particles();
+        }
         write_due_output();
         if (observer_.wants_progress(simulation_.time(), times_.end)) {
           observer_.progress(front_.state(simulation_, output_.front_position(simulation_), steps()));
         }
       }
-    } catch (const sim::SlideLeft& end) {
-      output_.slide_left();
-      write_last_state();
-      close("done", end.what());
-      observer_.text(end.what());
-      return ExitCode::done;
     } catch (const RunError& error) {
       write_last_state();
       close("failed", error.what());
@@ -144,8 +141,19 @@ class Loop {
     simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
+    if (!simulation_.left_text().empty()) {
+      return;
+    }
     report_line(warnings_.after_step(simulation_));
     output_.after_step(simulation_);
+  }
+
+  ExitCode end_without_particles() {
+    output_.slide_left();
+    write_last_state();
+    close("done", simulation_.left_text());
+    observer_.text(simulation_.left_text());
+    return ExitCode::done;
   }
 
   // A run at rest ends. Its last row and snapshot are written before a checkpoint records that.

@@ -50,7 +50,7 @@ class RunOutput {
   void before_step(const Simulation& simulation);
   // Samples maps and probes; call after every step.
   void after_step(const Simulation& simulation);
-  // Replaces after_step after a step that removed the last of the slide (SlideLeft).
+  // Replaces after_step after a step that removed the last of the slide.
   void slide_left();
   // End state in run.json, as of the last call of write_provenance.
   [[nodiscard]] const sim::EndState& end_state() const { return end_state_; }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "base/linear.hpp"
+#include "device/step_sums.hpp"
+#include "sim/setup.hpp"
 
 namespace thawslide::sim {
 
@@ -61,5 +63,53 @@ struct Budget {
     }
   }
 };
+
+// Adds contact and all terms that act on the slide as a whole. has_bed: an erodible bed was in reach.
+template <int Dim>
+void add_contact(const terrain::ContactWork<Dim>& contact, const Model<Dim>& model, bool has_bed, Real dt,
+                 Budget<Dim>& budget) {
+  budget.friction_work += contact.friction_work;
+  budget.converted += model.band.heat ? contact.converted : contact.friction_work;
+  budget.contact_loss += contact.loss;
+  budget.frame_work += contact.frame_work;
+  budget.damping += contact.damping;
+  budget.gravity_impulse += dt * (budget.initial_mass + budget.joined_mass - budget.left_mass) * model.motion.gravity;
+  budget.ground_impulse -= dt * contact.force;
+  budget.constraint_impulse += contact.constraint_impulse;
+  if (has_bed) {
+    budget.bed_work += contact.bed_work;
+    budget.bed_impulse += contact.bed_impulse;
+  }
+}
+
+// Adds all terms of a step of dt [s].
+template <int Dim>
+void add_step(const device::StepSums<Dim>& sums, const Setup<Dim>& setup, bool has_bed, Real dt, Budget<Dim>& budget) {
+  const Model<Dim>& model = setup.model;
+  if (setup.parameters.mechanics.enabled) {
+    add_contact(sums.contact, model, has_bed, dt, budget);
+  }
+  budget.contact_loss += sums.between_bodies.loss;
+  budget.numerical += sums.particle_kinetic - sums.contact.node_kinetic;
+  budget.numerical += sums.filtered;
+  budget.numerical += sums.mapped_back;
+  budget.numerical += sums.between_bodies.numerical;
+  const mpm::StressWork& work = sums.deformed.work;
+  budget.stress_work += work.total;
+  budget.plastic += work.plastic;
+  budget.viscous += work.viscous;
+  budget.pore_work += model.motion.effective_stress ? work.pore : Real(0);
+  budget.band_rescale += model.band.heat ? sums.band_rescale : Real(0);
+  // With band columns the temperature of the body is constant.
+  budget.friction_heat +=
+      model.contact.band_columns ? sums.contact.friction_work - sums.contact.converted : sums.heat.friction;
+  budget.boundary_heat += sums.heat.boundary;
+  budget.advection += sums.heat.advection;
+  budget.capacity_heat += sums.heat.capacity;
+  budget.porosity_heat += sums.heat.porosity;
+  budget.drained_water += sums.drained.mass;
+  budget.drained_heat += sums.drained.heat;
+  budget.vented_water += sums.vented;
+}
 
 }  // namespace thawslide::sim

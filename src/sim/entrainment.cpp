@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/raster_sampling.hpp"
-#include "sim/simulation.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
@@ -17,9 +16,6 @@ namespace {
 
 // Minimum fraction of a full particle; smaller volumes wait, because particles with almost no mass are useless.
 constexpr double least_fraction = 0.01;
-// Steps between two additions; each addition rebuilds the grid around the new particles.
-constexpr std::int64_t joining_interval = 8;
-
 // Volume of bed below the nodes of a column [m3], over the part of the domain nearest to them. The depth is sampled at
 // the same number of points along each axis.
 template <int Dim>
@@ -53,6 +49,83 @@ terrain::BedMaterial make_bed_material(const config::Bed& bed, Real density) {
           static_cast<Real>(bed.depth_per_slip), density};
 }
 
+// Positions below the slide at which material removed from columns may join, relative to the domain's lower corner:
+// below the lowest particle over each column. Particles farther ahead or to the side would carry the slide to bed that
+// it has not reached. A column without particles above it uses its centre.
+template <int Dim>
+std::vector<Vector<double, Dim - 1>> places_below_slide(
+    const Slide<Dim>& slide, double cell, const std::vector<typename terrain::Bed<Dim>::Column>& columns) {
+  struct Lowest {
+    Vector<double, Dim - 1> position;
+    double height = HUGE_VAL;
+    std::int64_t id = -1;
+  };
+  std::map<typename terrain::Bed<Dim>::Column, Lowest> lowest;
+  for (const auto& column : columns) {
+    for (int a = 0; a + 1 < Dim; ++a) {
+      lowest[column].position[a] = column[static_cast<std::size_t>(a)] * cell;
+    }
+  }
+  for (const std::uint32_t p : slide.grid.order()) {
+    typename terrain::Bed<Dim>::Column column;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      column[static_cast<std::size_t>(a)] =
+          static_cast<int>(std::lround(static_cast<double>(slide.particles.position(p, a)) / cell));
+    }
+    const auto found = lowest.find(column);
+    const auto height = static_cast<double>(slide.particles.position(p, Dim - 1));
+    const std::int64_t id = slide.particles.id(p);
+    if (found != lowest.end() && std::tie(height, id) < std::tie(found->second.height, found->second.id)) {
+      found->second = {slide.particles.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(), height,
+                       id};
+    }
+  }
+  std::vector<Vector<double, Dim - 1>> positions;
+  for (const auto& column : columns) {
+    positions.push_back(lowest.at(column).position);
+  }
+  return positions;
+}
+
+// Creates a bed particle on the ground, within one particle length behind a position below the slide. Consecutive
+// numbers fill this length evenly (multiples of the golden ratio). The particle carries no stress at first, so nodal
+// forces do not change.
+template <int Dim>
+NewParticle<Dim> particle_of_bed(const Setup<Dim>& setup, Vector<double, Dim - 1> position,
+                                 const terrain::LooseMaterial<Dim>& material, std::int64_t number) {
+  const Model<Dim>& model = setup.model;
+  const double cell = setup.cell();
+  const auto body = static_cast<std::int32_t>(model.body_names.size() - 1);
+  const double half = static_cast<double>(model.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
+  const double turn = 0.6180339887498949 * static_cast<double>(number);
+  const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>().template cast<double>();
+  if (along.norm() > 0.0) {
+    position -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
+  }
+  for (int a = 0; a + 1 < Dim; ++a) {
+    position[a] = std::clamp(position[a], half, static_cast<double>(model.constraints.extent[a]) - half);
+  }
+  const Vector<double, Dim> normal = model.ground->normal_below(position, cell);
+  NewParticle<Dim> one;
+  one.body = body;
+  one.material = static_cast<std::int32_t>(
+      std::find(model.material_names.begin(), model.material_names.end(), setup.parameters.bed.material) -
+      model.material_names.begin());
+  const double height = model.ground->height(position, static_cast<std::size_t>(body)) + half;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    one.position[a] = static_cast<Real>(position[a]);
+  }
+  one.position[Dim - 1] = static_cast<Real>(height);
+  one.velocity = material.momentum / material.mass;
+  one.volume = material.mass / model.bed_density;
+  one.temperature = static_cast<Real>(setup.parameters.bed.temperature);
+  one.porosity = static_cast<Real>(setup.parameters.bed.porosity);
+  const Real weight = model.bed_density * model.motion.gravity.norm() * static_cast<Real>(std::abs(normal[Dim - 1]));
+  one.flow_depth = weight > Real(0) ? material.normal_pressure / weight : Real(0);
+  one.heat = material.work - Real(0.5) * material.momentum.squaredNorm() / material.mass;
+  return one;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -78,114 +151,18 @@ std::optional<terrain::Bed<Dim>> make_bed(const config::Case& parameters, const 
   return terrain::Bed<Dim>(make_bed_material(parameters.bed, model.bed_density), columns, std::move(mass));
 }
 
-// Positions below the slide at which material removed from columns may join, relative to the domain's lower corner:
-// below the lowest particle over each column. Particles farther ahead or to the side would carry the slide to bed that
-// it has not reached. A column without particles above it uses its centre.
-template <int Dim>
-std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(
-    const std::vector<typename terrain::Bed<Dim>::Column>& columns) const {
-  struct Lowest {
-    Vector<double, Dim - 1> position;
-    double height = HUGE_VAL;
-    std::int64_t id = -1;
-  };
-  const double cell = parameters_.grid.cell;
-  std::map<typename terrain::Bed<Dim>::Column, Lowest> lowest;
-  for (const auto& column : columns) {
-    for (int a = 0; a + 1 < Dim; ++a) {
-      lowest[column].position[a] = column[static_cast<std::size_t>(a)] * cell;
-    }
-  }
-  for (const std::uint32_t p : grid_.order()) {
-    typename terrain::Bed<Dim>::Column column;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      column[static_cast<std::size_t>(a)] =
-          static_cast<int>(std::lround(static_cast<double>(particles_.position(p, a)) / cell));
-    }
-    const auto found = lowest.find(column);
-    const auto height = static_cast<double>(particles_.position(p, Dim - 1));
-    const std::int64_t id = particles_.id(p);
-    if (found != lowest.end() && std::tie(height, id) < std::tie(found->second.height, found->second.id)) {
-      found->second = {particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(), height, id};
-    }
-  }
-  std::vector<Vector<double, Dim - 1>> positions;
-  for (const auto& column : columns) {
-    positions.push_back(lowest.at(column).position);
-  }
-  return positions;
-}
-
-// Creates a bed particle on the ground, within one particle length behind a position below the slide. Consecutive
-// numbers fill this length evenly (multiples of the golden ratio). The particle carries no stress at first, so nodal
-// forces do not change.
-template <int Dim>
-NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> position,
-                                                  const terrain::LooseMaterial<Dim>& material,
-                                                  std::int64_t number) const {
-  const double cell = parameters_.grid.cell;
-  const auto body = static_cast<std::int32_t>(model_.body_names.size() - 1);
-  const double half = static_cast<double>(model_.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
-  const double turn = 0.6180339887498949 * static_cast<double>(number);
-  const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>().template cast<double>();
-  if (along.norm() > 0.0) {
-    position -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
-  }
-  for (int a = 0; a + 1 < Dim; ++a) {
-    position[a] = std::clamp(position[a], half, static_cast<double>(model_.constraints.extent[a]) - half);
-  }
-  const Vector<double, Dim> normal = model_.ground->normal_below(position, cell);
-  NewParticle<Dim> one;
-  one.body = body;
-  one.material = static_cast<std::int32_t>(
-      std::find(model_.material_names.begin(), model_.material_names.end(), parameters_.bed.material) -
-      model_.material_names.begin());
-  const double height = model_.ground->height(position, static_cast<std::size_t>(body)) + half;
-  for (int a = 0; a + 1 < Dim; ++a) {
-    one.position[a] = static_cast<Real>(position[a]);
-  }
-  one.position[Dim - 1] = static_cast<Real>(height);
-  one.velocity = material.momentum / material.mass;
-  one.volume = material.mass / model_.bed_density;
-  one.temperature = static_cast<Real>(parameters_.bed.temperature);
-  one.porosity = static_cast<Real>(parameters_.bed.porosity);
-  const Real weight = model_.bed_density * model_.motion.gravity.norm() * static_cast<Real>(std::abs(normal[Dim - 1]));
-  one.flow_depth = weight > Real(0) ? material.normal_pressure / weight : Real(0);
-  one.heat = material.work - Real(0.5) * material.momentum.squaredNorm() / material.mass;
-  return one;
-}
-
-// Bed in contact with the slide in this step; null like bed_in_reach.
-template <int Dim>
-const terrain::Bed<Dim>* Simulation<Dim>::bed_to_meet() {
-  if (bed_in_reach() != nullptr) {
-    bed_->cover(grid_, *ground_, model_.motion.sizes, particles_);
-  }
-  return bed_in_reach();
-}
-
-// Collects the mass that contact nodes entrained in this step.
-template <int Dim>
-void Simulation<Dim>::collect_bed() {
-  if (bed_in_reach() != nullptr) {
-    bed_->collect(grid_, nodes_, dt_);
-  }
-}
-
-// Adds loose material as soon as it suffices for a particle. Smaller particles are added if the bed is exhausted, or if
+// Loose material joins as soon as it suffices for a particle. Smaller particles join if the bed is exhausted, or if
 // the slide has moved on by a cell.
 template <int Dim>
-void Simulation<Dim>::entrain_bed() {
-  if (step_number_ % joining_interval != 0) {
-    return;
-  }
-  const Real whole =
-      model_.bed_density * static_cast<Real>(std::pow(parameters_.grid.cell / parameters_.bed.particles_per_axis, Dim));
+std::vector<NewParticle<Dim>> loose_particles(const Setup<Dim>& setup, const Solver<Dim>& solver,
+                                              const Slide<Dim>& slide, terrain::Bed<Dim>& bed, Budget<Dim>& budget) {
+  const Real whole = setup.model.bed_density *
+                     static_cast<Real>(std::pow(setup.cell() / setup.parameters.bed.particles_per_axis, Dim));
   std::vector<typename terrain::Bed<Dim>::Column> columns;
   std::vector<terrain::LooseMaterial<Dim>> parts;
-  bed_->release([&](const auto& column, const terrain::LooseMaterial<Dim>& material) {
-    const bool has_passed = material.idle * material.momentum.norm() > grid_.cell() * material.mass;
-    const bool is_last = bed_->is_exhausted(column) || has_passed;
+  bed.release([&](const auto& column, const terrain::LooseMaterial<Dim>& material) {
+    const bool has_passed = material.idle * material.momentum.norm() > slide.grid.cell() * material.mass;
+    const bool is_last = bed.is_exhausted(column) || has_passed;
     if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_fraction) * whole))) {
       return false;
     }
@@ -199,30 +176,25 @@ void Simulation<Dim>::entrain_bed() {
     return true;
   });
   if (columns.empty()) {
-    return;
+    return {};
   }
-  sync_to_host();
-  const auto positions = places_below_slide(columns);
+  solver.sync_to_host();
+  const auto positions = places_below_slide(slide, setup.cell(), columns);
   std::vector<NewParticle<Dim>> joining;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    joining.push_back(particle_of_bed(positions[k], parts[k], next_id_ + static_cast<std::int64_t>(k)));
-    budget_.bed_joined_mass += parts[k].mass;
-    budget_.bed_heat += joining[k].heat;
-    budget_.bed_joined_kinetic += parts[k].work - joining[k].heat;
+    joining.push_back(particle_of_bed(setup, positions[k], parts[k], slide.next_id + static_cast<std::int64_t>(k)));
+    budget.bed_joined_mass += parts[k].mass;
+    budget.bed_heat += joining[k].heat;
+    budget.bed_joined_kinetic += parts[k].work - joining[k].heat;
   }
-  append(joining);
+  return joining;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
-  template std::optional<terrain::Bed<Dim>> make_bed<Dim>(const config::Case&, const config::Site&,                   \
-                                                          const Model<Dim>&);                                         \
-  template std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(                                  \
-      const std::vector<typename terrain::Bed<Dim>::Column>&) const;                                                  \
-  template NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1>,                                 \
-                                                             const terrain::LooseMaterial<Dim>&, std::int64_t) const; \
-  template const terrain::Bed<Dim>* Simulation<Dim>::bed_to_meet();                                                   \
-  template void Simulation<Dim>::collect_bed();                                                                       \
-  template void Simulation<Dim>::entrain_bed();
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                   \
+  template std::optional<terrain::Bed<Dim>> make_bed<Dim>(const config::Case&, const config::Site&,  \
+                                                          const Model<Dim>&);                        \
+  template std::vector<NewParticle<Dim>> loose_particles<Dim>(const Setup<Dim>&, const Solver<Dim>&, \
+                                                              const Slide<Dim>&, terrain::Bed<Dim>&, Budget<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -10,7 +10,7 @@
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
 #include "sim/domain_bottom.hpp"
-#include "sim/release_times.hpp"
+#include "sim/release_stages.hpp"
 #include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"

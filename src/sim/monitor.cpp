@@ -1,16 +1,11 @@
-// Monitor of a run: unexplained energy growth, volume limits, and rest.
 #include "sim/monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/scheduled_events.hpp"
-#include "device/solver.hpp"
-#include "mpm/sum_over_particles.hpp"
-#include "sim/simulation.hpp"
+#include "sim/front.hpp"
 
 namespace thawslide::sim {
 
@@ -100,152 +95,126 @@ double last_event(const config::Case& parameters, const Model<Dim>& model) {
 }  // namespace
 
 template <int Dim>
-mpm::MonitorSums Simulation<Dim>::monitor_sums() const {
+mpm::MonitorKernel<Dim> monitor_kernel(const Setup<Dim>& setup, double dt) {
   // Displacement per step above which a particle is fast. Particle velocity also contains FLIP noise, which the grid
   // does not resolve and which displaces nothing.
-  const Real fast_distance = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
-  const mpm::MonitorKernel<Dim> kernel{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
-                                       static_cast<Real>(parameters_.guards.smallest_volume),
-                                       static_cast<Real>(parameters_.guards.largest_volume)};
-  mpm::MonitorSums seen;
-  if (device_solver_) {
-    on_device([&] { seen = device_solver_->monitor(kernel); });
-    return seen;
-  }
-  return mpm::sum_over_particles<mpm::MonitorSums>(grid_, [&](std::uint32_t p) { return kernel(particles_, p); });
+  const Real fast_distance = static_cast<Real>(rest_speed(setup.parameters.time)) * static_cast<Real>(dt);
+  const config::Guards& guards = setup.parameters.guards;
+  return {setup.model.motion.gravity, setup.model.origin.template cast<Real>(), fast_distance,
+          static_cast<Real>(guards.smallest_volume), static_cast<Real>(guards.largest_volume)};
 }
 
 template <int Dim>
-void Simulation<Dim>::start_monitor() {
-  monitor_ = {};
-  removed_ = {};
-  monitor_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
-  if (!parameters_.mechanics.enabled) {
-    return;
+RunMonitor monitor_at_start(const Setup<Dim>& setup, const Slide<Dim>& slide, const Budget<Dim>& budget,
+                            const mpm::MonitorSums& seen) {
+  RunMonitor monitor;
+  for (const std::uint32_t p : slide.grid.order()) {
+    const auto& material = setup.model.motion.materials[static_cast<std::size_t>(slide.particles.material(p))];
+    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim>(slide.particles.stress, p);
+    monitor.energy_at_start +=
+        static_cast<double>(slide.particles.volume(p) * physics::elastic_energy_density(material.elastic, stress));
   }
-  for (const std::uint32_t p : grid_.order()) {
-    const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
-    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim>(particles_.stress, p);
-    monitor_.energy_at_start +=
-        static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
-  }
-  monitor_.lowest_made = energy_made(budget_, monitor_sums());
-  monitor_.rest_since = starts_faster(particles_, rest_speed(parameters_.time)) ? -1.0 : 0.0;
+  monitor.lowest_made = energy_made(budget, seen);
+  monitor.rest_since = starts_faster(slide.particles, rest_speed(setup.parameters.time)) ? -1.0 : 0.0;
+  return monitor;
 }
 
 template <int Dim>
-void Simulation<Dim>::monitor() {
-  if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && invalid_.id < 0)) {
-    return;
-  }
-  const mpm::MonitorSums seen = monitor_sums();
-  stop_if_energy_grows(seen);
-  invalid_ += seen.volumes;
-  update_rest(seen);
-}
-
-template <int Dim>
-void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums& seen) {
-  const double made = energy_made(budget_, seen);
-  monitor_.lowest_made = std::min(made, monitor_.lowest_made + forgotten_fraction * (made - monitor_.lowest_made));
-  monitor_.largest_energy = std::max(monitor_.largest_energy, energy_so_far(budget_, seen, monitor_.energy_at_start));
-  const double growth = made - monitor_.lowest_made;
-  const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
-  const double energy = std::max(monitor_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
+std::optional<EnergyGrowth> check_energy(const Setup<Dim>& setup, const Budget<Dim>& budget,
+                                         const mpm::MonitorSums& seen, RunMonitor& monitor) {
+  const double made = energy_made(budget, seen);
+  monitor.lowest_made = std::min(made, monitor.lowest_made + forgotten_fraction * (made - monitor.lowest_made));
+  monitor.largest_energy = std::max(monitor.largest_energy, energy_so_far(budget, seen, monitor.energy_at_start));
+  const double growth = made - monitor.lowest_made;
+  const double weight = static_cast<double>(seen.mass * setup.model.motion.gravity.norm());
+  const double energy = std::max(monitor.largest_energy, weight * noticed_fall * setup.cell());
   const double round_off_of_sums = round_off_of_energy * static_cast<double>(std::abs(seen.potential));
-  monitor_.made_fraction = made > round_off_of_sums ? made / energy : 0.0;
-  if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
-    stop_for_energy(growth, growth / energy);
+  monitor.made_fraction = made > round_off_of_sums ? made / energy : 0.0;
+  if (growth > setup.parameters.guards.energy_growth * energy + round_off_of_sums) {
+    return EnergyGrowth{growth, growth / energy};
   }
+  return {};
 }
 
 template <int Dim>
-void Simulation<Dim>::update_rest(const mpm::MonitorSums& seen) {
+void update_rest(const Setup<Dim>& setup, double time, const mpm::MonitorSums& seen, const Solver<Dim>& solver,
+                 const Slide<Dim>& slide, RunMonitor& monitor) {
+  const config::Time& times = setup.parameters.time;
   const bool moves = seen.fast_mass > static_cast<Real>(moving_fraction_at_rest) * seen.mass;
-  if (parameters_.time.stop_at_rest <= 0.0) {
-    monitor_.has_moved = not_sampled;
-  } else if (monitor_.has_moved == not_sampled) {
+  if (times.stop_at_rest <= 0.0) {
+    monitor.has_moved = not_sampled;
+  } else if (monitor.has_moved == not_sampled) {
     // The criterion of rest used another speed so far.
-    monitor_.rest_since = -1.0;
-    monitor_.has_moved =
-        has_moved_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.time.moved_distance)) ? 1.0
-                                                                                                                : 0.0;
+    monitor.rest_since = -1.0;
+    solver.copy_particles_back();
+    monitor.has_moved = has_moved_further(slide.particles, static_cast<Real>(times.moved_distance)) ? 1.0 : 0.0;
   }
   if (moves) {
-    monitor_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_sampled;
-    monitor_.rest_since = -1.0;
-  } else if (monitor_.rest_since < 0.0) {
-    monitor_.rest_since = time_;
+    monitor.has_moved = times.stop_at_rest > 0.0 ? 1.0 : not_sampled;
+    monitor.rest_since = -1.0;
+  } else if (monitor.rest_since < 0.0) {
+    monitor.rest_since = time;
   }
 }
 
 template <int Dim>
-bool Simulation<Dim>::is_at_rest() const {
-  const config::Time& times = parameters_.time;
-  const double needed = monitor_.rest_since > 0.0
+bool is_at_rest(const Setup<Dim>& setup, const Clock& clock, const RunMonitor& monitor) {
+  const config::Time& times = setup.parameters.time;
+  const double needed = monitor.rest_since > 0.0
                             ? times.rest_time
-                            : rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
-  const double from = std::max(monitor_.rest_since, last_event(parameters_, model_));
-  return monitor_.rest_since >= 0.0 && step_number_ >= watch_interval && time_ - from >= needed * (1.0 - 1e-9);
+                            : rest_time_from_start(times, static_cast<double>(setup.model.motion.gravity.norm()));
+  const double from = std::max(monitor.rest_since, last_event(setup.parameters, setup.model));
+  return monitor.rest_since >= 0.0 && clock.step_number >= watch_interval && clock.time - from >= needed * (1.0 - 1e-9);
 }
 
 template <int Dim>
-bool Simulation<Dim>::ends_at_rest() const {
-  return parameters_.time.stop_at_rest > 0.0 && monitor_.has_moved > 0.0 && is_at_rest();
-}
-
-template <int Dim>
-std::string Simulation<Dim>::rest_rule() const {
-  const config::Time& times = parameters_.time;
-  const double from_start = rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
+std::string rest_rule(const Setup<Dim>& setup) {
+  const config::Time& times = setup.parameters.time;
+  const double from_start = rest_time_from_start(times, static_cast<double>(setup.model.motion.gravity.norm()));
   const std::string or_from_start =
       from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
-  const double event = last_event(parameters_, model_);
+  const double event = last_event(setup.parameters, setup.model);
   const std::string after_event = event > 0.0 ? fmt::format(" after the last scheduled change at {:g} s", event) : "";
   return fmt::format("for {:g} s{}{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
                      or_from_start, after_event, 100.0 * moving_fraction_at_rest, rest_speed(times));
 }
 
 template <int Dim>
-void Simulation<Dim>::restart_rest_time() {
-  monitor_.rest_since = -1.0;
+std::string rest_text(const Setup<Dim>& setup, bool has_moved, const RunMonitor& monitor) {
+  const config::Time& times = setup.parameters.time;
+  if (!has_moved) {
+    return fmt::format("{}: no more than {:g} % of its mass has travelled {:g} m (time.moved_distance)", not_moved,
+                       100.0 * mpm::fraction_ahead_of_front, times.moved_distance);
+  }
+  return fmt::format(
+      "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
+      at_rest, monitor.rest_since, 100.0 * moving_fraction_at_rest, times.stop_at_rest);
 }
 
 template <int Dim>
-std::string Simulation<Dim>::energy_warning() const {
-  if (monitor_.made_fraction <= parameters_.guards.energy_growth) {
+std::string energy_warning(const Setup<Dim>& setup, double time, const RunMonitor& monitor) {
+  if (monitor.made_fraction <= setup.parameters.guards.energy_growth) {
     return "";
   }
   return fmt::format(
       "warning: by t = {:.6g} s the time steps have created {:.3g} % of all energy, gradually and without a physical "
       "cause. The results from here on are not reliable. Set a larger viscosity_number or viscosity_time of the "
       "material, or a smaller time.step",
-      time_, 100.0 * monitor_.made_fraction);
+      time, 100.0 * monitor.made_fraction);
 }
 
-template <int Dim>
-std::string Simulation<Dim>::rest_text() const {
-  if (!moved_mass().has_moved) {
-    return fmt::format("{}: no more than {:g} % of its mass has travelled {:g} m (time.moved_distance)", not_moved,
-                       100.0 * mpm::fraction_ahead_of_front, parameters_.time.moved_distance);
-  }
-  return fmt::format(
-      "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
-      at_rest, monitor_.rest_since, 100.0 * moving_fraction_at_rest, parameters_.time.stop_at_rest);
-}
-
-#define THAWSLIDE_INSTANTIATE(Dim)                                              \
-  template mpm::MonitorSums Simulation<Dim>::monitor_sums() const;              \
-  template void Simulation<Dim>::start_monitor();                               \
-  template void Simulation<Dim>::monitor();                                     \
-  template void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums&); \
-  template void Simulation<Dim>::update_rest(const mpm::MonitorSums&);          \
-  template bool Simulation<Dim>::is_at_rest() const;                            \
-  template bool Simulation<Dim>::ends_at_rest() const;                          \
-  template std::string Simulation<Dim>::rest_rule() const;                      \
-  template std::string Simulation<Dim>::energy_warning() const;                 \
-  template void Simulation<Dim>::restart_rest_time();                           \
-  template std::string Simulation<Dim>::rest_text() const;
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                       \
+  template mpm::MonitorKernel<Dim> monitor_kernel<Dim>(const Setup<Dim>&, double);                       \
+  template RunMonitor monitor_at_start<Dim>(const Setup<Dim>&, const Slide<Dim>&, const Budget<Dim>&,    \
+                                            const mpm::MonitorSums&);                                    \
+  template std::optional<EnergyGrowth> check_energy<Dim>(const Setup<Dim>&, const Budget<Dim>&,          \
+                                                         const mpm::MonitorSums&, RunMonitor&);          \
+  template void update_rest<Dim>(const Setup<Dim>&, double, const mpm::MonitorSums&, const Solver<Dim>&, \
+                                 const Slide<Dim>&, RunMonitor&);                                        \
+  template bool is_at_rest<Dim>(const Setup<Dim>&, const Clock&, const RunMonitor&);                     \
+  template std::string rest_rule<Dim>(const Setup<Dim>&);                                                \
+  template std::string rest_text<Dim>(const Setup<Dim>&, bool, const RunMonitor&);                       \
+  template std::string energy_warning<Dim>(const Setup<Dim>&, double, const RunMonitor&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

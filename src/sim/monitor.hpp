@@ -1,12 +1,15 @@
-// State of the run monitor (guards, rest), which is stored in checkpoints.
+// Monitor of a run: unexplained energy growth, volume limits, and rest. Its state is stored in checkpoints.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "mpm/monitor_sums.hpp"
+#include "sim/budget.hpp"
+#include "sim/clock.hpp"
+#include "sim/slide.hpp"
+#include "sim/solver.hpp"
 
 namespace thawslide::sim {
 
@@ -45,17 +48,44 @@ struct RunMonitor {
   }
 };
 
-// Number of particles removed from a run, by cause.
-struct Removed {
-  std::int64_t left = 0, not_finite = 0, volume = 0;
+// Sums over the particles that the monitor needs. dt: last step [s].
+template <int Dim>
+[[nodiscard]] mpm::MonitorKernel<Dim> monitor_kernel(const Setup<Dim>& setup, double dt);
 
-  [[nodiscard]] std::int64_t by_guards() const { return not_finite + volume; }
+// Monitor at t = 0, except for its first step. seen: sums over the particles.
+template <int Dim>
+[[nodiscard]] RunMonitor monitor_at_start(const Setup<Dim>& setup, const Slide<Dim>& slide, const Budget<Dim>& budget,
+                                          const mpm::MonitorSums& seen);
+
+// Energy that has grown without a physical cause, in Joule and as a fraction of all energy so far.
+struct EnergyGrowth {
+  double energy, fraction;
 };
+// Compares the energy of the particles with the budget. Empty unless the run is unstable.
+template <int Dim>
+[[nodiscard]] std::optional<EnergyGrowth> check_energy(const Setup<Dim>& setup, const Budget<Dim>& budget,
+                                                       const mpm::MonitorSums& seen, RunMonitor& monitor);
 
-// Text such as "12 particles: 3 not finite, 9 by their volume" for particles removed by guards.
-[[nodiscard]] inline std::string text_of(const Removed& removed) {
-  return fmt::format("{} particle{}: {} not finite, {} by their volume", removed.by_guards(),
-                     removed.by_guards() == 1 ? "" : "s", removed.not_finite, removed.volume);
-}
+// Updates whether the slide is at rest. The particles are read only if the criterion has changed (resume --set).
+template <int Dim>
+void update_rest(const Setup<Dim>& setup, double time, const mpm::MonitorSums& seen, const Solver<Dim>& solver,
+                 const Slide<Dim>& slide, RunMonitor& monitor);
+
+// True if the slide is at rest: for time.rest_time, at most moving_fraction_at_rest of the mass has been faster than
+// time.stop_at_rest or, by default, usual_rest_speed.
+template <int Dim>
+[[nodiscard]] bool is_at_rest(const Setup<Dim>& setup, const Clock& clock, const RunMonitor& monitor);
+
+// This criterion as text.
+template <int Dim>
+[[nodiscard]] std::string rest_rule(const Setup<Dim>& setup);
+
+// Time since when the slide is at rest, as text.
+template <int Dim>
+[[nodiscard]] std::string rest_text(const Setup<Dim>& setup, bool has_moved, const RunMonitor& monitor);
+
+// Warning of slow unexplained energy growth by more than guards.energy_growth; empty if there is none.
+template <int Dim>
+[[nodiscard]] std::string energy_warning(const Setup<Dim>& setup, double time, const RunMonitor& monitor);
 
 }  // namespace thawslide::sim

@@ -1,16 +1,13 @@
-// Particles appended to a run between two steps.
-#include <algorithm>
+#include "sim/new_particles.hpp"
 
 #include "band/heat.hpp"
-#include "band/pore_pressure.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
-#include "sim/simulation.hpp"
 #include "sim/splitting.hpp"
-#include "terrain/ground_on_grid.hpp"
-#include "terrain/near_ground.hpp"
 
 namespace thawslide::sim {
+
+namespace {
 
 // Fills in the new particles at the end of the arrays, from `first` on; ids count from `next_id`.
 template <int Dim>
@@ -38,51 +35,24 @@ void fill_new(const std::vector<NewParticle<Dim>>& joining, std::size_t first, s
   }
 }
 
+}  // namespace
+
 template <int Dim>
-void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
-  if (joining.empty()) {
-    return;
+std::size_t append_particles(const std::vector<NewParticle<Dim>>& joining, const Model<Dim>& model, Slide<Dim>& slide) {
+  mpm::Particles<Dim>& particles = slide.particles;
+  const std::size_t first = particles.append(joining.size());
+  fill_new(joining, first, slide.next_id, model, particles);
+  set_unsplit(particles, first);
+  band::set_heat_content(model.band, particles, first);
+  for (std::size_t p = first; p < particles.size(); ++p) {
+    particles.mass(p) = particles.volume(p) * physics::mixture_density(model.motion.phases, particles.porosity(p),
+                                                                       particles.liquid_saturation(p));
   }
-  release_device();
-  const std::size_t first = particles_.append(joining.size());
-  fill_new(joining, first, next_id_, model_, particles_);
-  set_unsplit(particles_, first);
-  band::set_heat_content(model_.band, particles_, first);
-  for (std::size_t p = first; p < particles_.size(); ++p) {
-    particles_.mass(p) = particles_.volume(p) * physics::mixture_density(model_.motion.phases, particles_.porosity(p),
-                                                                         particles_.liquid_saturation(p));
-  }
-  are_particles_located_ = false;
-  locate_particles();
-  grid_.update(particles_, 0);  // without sorting, so the new particles stay last
-  update_ground();
-  if (model_.band.pressure && model_.band.needs_normal_load()) {
-    update_columns();
-    update_normal_load(first);
-  }
-  band::set_pore_pressure(model_.band, particles_, first);
-  if (model_.motion.effective_stress) {
-    mpm::split_total_stress(particles_, first);
-  }
-  if (model_.ground) {
-    terrain::set_contact_offset(model_.motion.sizes, grid_.cell(), particles_, first);
-  }
-  if (!model_.contact.band_columns) {
-    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_, first);
-  }
-  for (std::size_t k = 0; model_.band.heat && k < joining.size(); ++k) {
-    band::add_heat(model_.band, joining[k].heat, first + k, particles_);
-  }
-  std::vector<std::uint8_t> is_new(particles_.size(), 0);
-  std::fill(is_new.begin() + static_cast<std::ptrdiff_t>(first), is_new.end(), std::uint8_t{1});
-  const BodySums<Dim> sums = sum_over_marked(is_new);
-  budget_.joined_mass += sums.mass;
-  budget_.joined_mechanical += sums.kinetic + sums.potential;
-  budget_.joined_thermal += sums.sensible + sums.latent;
-  budget_.joined_momentum += sums.momentum;
+  return first;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim) template void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>&);
+#define THAWSLIDE_INSTANTIATE(Dim) \
+  template std::size_t append_particles<Dim>(const std::vector<NewParticle<Dim>>&, const Model<Dim>&, Slide<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

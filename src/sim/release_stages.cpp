@@ -1,46 +1,42 @@
-// Release in stages: a body is held until its release time. Held bodies have separate nodes, which are fixed.
+#include "sim/release_stages.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "base/instances.hpp"
-#include "sim/simulation.hpp"
+#include "base/error.hpp"
+#include "config/body_layers.hpp"
 
 namespace thawslide::sim {
 
-// A step that ends at the release time to round-off releases the body.
-template <int Dim>
-bool Simulation<Dim>::is_held(std::size_t body) const {
-  const std::vector<double>& times = model_.release_times;
-  return !times.empty() && time_ < times[body] * (1.0 - round_off);
+std::vector<double> release_times(const config::Case& parameters, const config::Site& site, std::size_t bodies) {
+  if (!config::has_stages(parameters)) {
+    return {};
+  }
+  std::vector<double> times(bodies, 0.0);
+  std::size_t number = 0;
+  for (const auto& [name, body] : parameters.bodies) {
+    double& time = times[number++];
+    time = body.release_time.number;
+    if (!body.release_time.attribute.empty()) {
+      const auto release = site.releases.find(name);
+      THAWSLIDE_ASSERT(release != site.releases.end(), "body.{} has a release time of polygons, and no release", name);
+      time = release->second.release_time;
+    }
+  }
+  const bool all_at_once = std::all_of(times.begin(), times.end(), [](double time) { return time == 0.0; });
+  return all_at_once ? std::vector<double>{} : times;
 }
 
-template <int Dim>
-double Simulation<Dim>::next_release() const {
+bool is_held(const std::vector<double>& times, double time, std::size_t body) {
+  return !times.empty() && time < times[body] * (1.0 - round_off);
+}
+
+double next_release(const std::vector<double>& times, double time) {
   double next = HUGE_VAL;
-  for (std::size_t body = 0; body < model_.release_times.size(); ++body) {
-    next = is_held(body) ? std::min(next, model_.release_times[body]) : next;
+  for (std::size_t body = 0; body < times.size(); ++body) {
+    next = is_held(times, time, body) ? std::min(next, times[body]) : next;
   }
   return next;
 }
-
-template <int Dim>
-void Simulation<Dim>::update_layers() {
-  const mpm::BetweenBodies& between = model_.between_bodies;
-  if (!between.has_held) {
-    return;
-  }
-  std::vector<std::uint8_t> layers = between.layer_of_body;
-  for (std::size_t body = 0; body < layers.size(); ++body) {
-    layers[body] = static_cast<std::uint8_t>(layers[body] + (is_held(body) ? between.layers : 0));
-  }
-  grid_.set_layers(std::move(layers));
-}
-
-#define THAWSLIDE_INSTANTIATE(Dim)                           \
-  template bool Simulation<Dim>::is_held(std::size_t) const; \
-  template double Simulation<Dim>::next_release() const;     \
-  template void Simulation<Dim>::update_layers();
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

@@ -1,22 +1,16 @@
-// Handling of particles that are invalid, or have left the domain or the known terrain: they end the run, or are
-// removed and counted, as specified by the case.
+#include "sim/removed_particles.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
-#include "base/rounding.hpp"
-#include "device/solver.hpp"
-#include "sim/simulation.hpp"
-#include "terrain/ground_on_grid.hpp"
+#include "mpm/sum_over_particles.hpp"
+#include "sim/run_failure.hpp"
 
 namespace thawslide::sim {
 
 namespace {
-
-// Reason for removal of a particle.
-enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_inverted };
 
 Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
   switch (fault) {
@@ -75,149 +69,130 @@ void mark_left_domain(const mpm::Particles<Dim>& particles, const Vector<Real, D
   });
 }
 
-std::int64_t count_of(const std::vector<std::uint8_t>& marks, Mark mark) {
-  return std::count(marks.begin(), marks.end(), std::uint8_t{mark});
-}
-
-}  // namespace
-
-// Sets invalid_ to the fault that must end the run.
+// For a non-finite particle, only mass and position are known; the residuals of the other terms show its content.
 template <int Dim>
-void Simulation<Dim>::mark_invalid_particles() {
-  const config::Guards& guards = parameters_.guards;
-  marks_.clear();
-  if (invalid_.id < 0 || mark_of(invalid_.fault, guards) == stays) {
-    return;
-  }
-  invalid_ = {};
-  marks_.assign(particles_.size(), stays);
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    const mpm::Fault fault = fault_of(particles_, p, guards);
-    marks_[p] = mark_of(fault, guards);
-    if (fault != mpm::Fault::none && marks_[p] == stays) {
-      invalid_.record(particles_.id(p), fault);
-    }
-  }
-}
-
-template <int Dim>
-void Simulation<Dim>::mark_left_particles() {
-  const bool removes = parameters_.grid.leaving == config::Policy::remove;
-  if (removes) {
-    marks_.resize(particles_.size(), stays);
-    mark_left_domain<Dim>(particles_, model_.constraints.extent, marks_);
-  }
-  const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
-  invalid_ += parallel_sum<mpm::InvalidParticle>(tiles, [&](std::size_t t, mpm::InvalidParticle& invalid) {
-    // The tile's own block is the middle one of its stencil, and its ground is checked one cell beyond its edge. After
-    // device steps the tiles may be outdated, so all particles are checked.
-    const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
-    if (!device_solver_ && !ground_->partly_unknown(own)) {
-      return;
-    }
-    for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
-      const std::uint32_t p = grid_.order()[k];
-      const auto position = particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>();
-      if (model_.ground->is_known(position) || (!marks_.empty() && marks_[p] != stays)) {
-        continue;
-      }
-      if (removes) {
-        marks_[p] = has_left;
-      } else {
-        invalid.record(particles_.id(p), mpm::Fault::left_map);
-      }
-    }
-  });
-}
-
-// Adds the budget terms of the marked particles. For a non-finite particle, only mass and position are known; the
-// residuals of the other terms show its content.
-template <int Dim>
-void Simulation<Dim>::add_removed_particles() {
-  std::vector<std::uint8_t> known = marks_;
-  for (const std::uint32_t p : grid_.order()) {
-    if (marks_[p] == is_not_finite) {
-      known[p] = stays;
-      budget_.left_mass += particles_.mass(p);
-      budget_.left_mechanical -= particles_.mass(p) * model_.motion.gravity.dot(position_of(p).template cast<Real>());
-    }
-    budget_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_inverted ? particles_.mass(p) : Real(0);
-  }
-  const BodySums<Dim> sums = sum_over_marked(known);
-  budget_.left_mass += sums.mass;
-  budget_.left_mechanical += sums.kinetic + sums.potential;
-  budget_.left_thermal += sums.sensible + sums.latent;
-  budget_.left_momentum += sums.momentum;
-  budget_.left_seeped += sums.seeped;
+void add_not_finite(const Setup<Dim>& setup, const mpm::Particles<Dim>& particles, std::size_t p, Budget<Dim>& budget) {
+  budget.left_mass += particles.mass(p);
+  const Vector<Real, Dim> position = position_of(setup.model, particles, p).template cast<Real>();
+  budget.left_mechanical -= particles.mass(p) * setup.model.motion.gravity.dot(position);
 }
 
 // The effect of a step with a non-finite particle is unknown as well, so its budget terms stay unchanged.
 template <int Dim>
-void Simulation<Dim>::correct_energy_for_removal() {
-  std::vector<Real> before;
-  budget_before_.for_each([&](const Real& term) { before.push_back(term); });
+void undo_not_finite(Budget<Dim> before, Budget<Dim>& budget) {
+  std::vector<Real> terms;
+  before.for_each([&](const Real& term) { terms.push_back(term); });
   std::size_t k = 0;
-  budget_.for_each([&](Real& term) {
-    term = std::isfinite(term) ? term : before[k];
+  budget.for_each([&](Real& term) {
+    term = std::isfinite(term) ? term : terms[k];
     ++k;
   });
 }
 
-// Reports the particle with the smallest id among those marked last as invalid.
+}  // namespace
+
 template <int Dim>
-void Simulation<Dim>::stop_for_removed_mass(double fraction) {
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    if (marks_[p] == is_not_finite || marks_[p] == has_inverted) {
-      invalid_.record(particles_.id(p), fault_of(particles_, p, parameters_.guards));
+Marks marks_of_invalid(const config::Guards& guards, const mpm::Particles<Dim>& particles,
+                       mpm::InvalidParticle& invalid) {
+  if (invalid.id < 0 || mark_of(invalid.fault, guards) == stays) {
+    return {};
+  }
+  invalid = {};
+  Marks marks(particles.size(), stays);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const mpm::Fault fault = fault_of(particles, p, guards);
+    marks[p] = mark_of(fault, guards);
+    if (fault != mpm::Fault::none && marks[p] == stays) {
+      invalid.record(particles.id(p), fault);
     }
   }
-  const std::size_t last = index_in_memory(invalid_.id);
-  throw RunError(
-      fmt::format("the run failed at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
-                  "guards.removed_mass allows {:g} %; among the last: {}: {}. {}",
-                  time_, step_number_, text_of(removed_), 100.0 * fraction, 100.0 * parameters_.guards.removed_mass,
-                  particle_text(last), fault_text(last), likely_cause(last)));
+  return marks;
 }
 
 template <int Dim>
-void Simulation<Dim>::remove_marked_particles() {
-  const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_inverted)};
-  if (now.left + now.by_guards() == 0) {
-    return;
+void mark_left(const Setup<Dim>& setup, const Slide<Dim>& slide, bool all_tiles, Marks& marks,
+               mpm::InvalidParticle& invalid) {
+  const bool removes = setup.parameters.grid.leaving == config::Policy::remove;
+  if (removes) {
+    marks.resize(slide.particles.size(), stays);
+    mark_left_domain<Dim>(slide.particles, setup.model.constraints.extent, marks);
   }
-  const bool none_stays = static_cast<std::size_t>(now.left + now.by_guards()) == particles_.size();
-  if (none_stays && now.by_guards() == 0) {
-    throw SlideLeft(fmt::format(
-        "the whole slide has left the domain or the known terrain at t = {:.6g} s (step {}). mass_kg still includes "
-        "the last {} kg{}, which left in this step. Specify a larger domain ([grid] min and max) or a larger DEM, "
-        "and repeat the run.",
-        time_, step_number_, rounded_text(static_cast<double>(sum_over_body().mass), 3),
-        Dim == 2 ? " per m of width" : ""));
-  }
-  if (now.not_finite > 0) {
-    correct_energy_for_removal();
-  }
-  add_removed_particles();
-  removed_.left += now.left;
-  removed_.not_finite += now.not_finite;
-  removed_.volume += now.volume;
-  const auto all_mass = static_cast<double>(budget_.initial_mass + budget_.joined_mass);
-  const double fraction = static_cast<double>(budget_.removed_mass) / all_mass;
-  if (none_stays || fraction > parameters_.guards.removed_mass) {
-    stop_for_removed_mass(fraction);
-  }
-  release_device();
-  grid_.remove(particles_, particles_.remove(marks_));
-  update_ground();
+  const std::size_t tiles = setup.model.ground ? slide.grid.tiles().size() : 0;
+  invalid += parallel_sum<mpm::InvalidParticle>(tiles, [&](std::size_t t, mpm::InvalidParticle& of_tile) {
+    // The tile's own block is the middle one of its stencil, and its ground is checked one cell beyond its edge.
+    const auto own = static_cast<std::size_t>(slide.grid.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
+    if (!all_tiles && !slide.ground.partly_unknown(own)) {
+      return;
+    }
+    for (std::uint32_t k = slide.grid.tiles()[t].first; k < slide.grid.tiles()[t].last; ++k) {
+      const std::uint32_t p = slide.grid.order()[k];
+      const auto position = slide.particles.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>();
+      if (setup.model.ground->is_known(position) || (!marks.empty() && marks[p] != stays)) {
+        continue;
+      }
+      if (removes) {
+        marks[p] = has_left;
+      } else {
+        of_tile.record(slide.particles.id(p), mpm::Fault::left_map);
+      }
+    }
+  });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                              \
-  template void Simulation<Dim>::mark_invalid_particles();      \
-  template void Simulation<Dim>::mark_left_particles();         \
-  template void Simulation<Dim>::add_removed_particles();       \
-  template void Simulation<Dim>::correct_energy_for_removal();  \
-  template void Simulation<Dim>::stop_for_removed_mass(double); \
-  template void Simulation<Dim>::remove_marked_particles();
+Removed count_of(const Marks& marks) {
+  const auto count = [&](Mark mark) { return std::count(marks.begin(), marks.end(), std::uint8_t{mark}); };
+  return {count(has_left), count(is_not_finite), count(has_inverted)};
+}
+
+template <int Dim>
+void add_removed(const Setup<Dim>& setup, const Slide<Dim>& slide, const Marks& marks, const Budget<Dim>& before,
+                 const band::SumsOfParticle<Dim>& of_particle, Budget<Dim>& budget) {
+  if (count_of(marks).not_finite > 0) {
+    undo_not_finite(before, budget);
+  }
+  Marks known = marks;
+  for (const std::uint32_t p : slide.grid.order()) {
+    if (marks[p] == is_not_finite) {
+      known[p] = stays;
+      add_not_finite(setup, slide.particles, p, budget);
+    }
+    budget.removed_mass += marks[p] == is_not_finite || marks[p] == has_inverted ? slide.particles.mass(p) : Real(0);
+  }
+  const band::BodySums<Dim> sums = sum_over_marked(slide, of_particle, known);
+  budget.left_mass += sums.mass;
+  budget.left_mechanical += sums.kinetic + sums.potential;
+  budget.left_thermal += sums.sensible + sums.latent;
+  budget.left_momentum += sums.momentum;
+  budget.left_seeped += sums.seeped;
+}
+
+template <int Dim>
+mpm::InvalidParticle first_invalid(const config::Guards& guards, const mpm::Particles<Dim>& particles,
+                                   const Marks& marks) {
+  mpm::InvalidParticle invalid;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (marks[p] == is_not_finite || marks[p] == has_inverted) {
+      invalid.record(particles.id(p), fault_of(particles, p, guards));
+    }
+  }
+  return invalid;
+}
+
+template <int Dim>
+band::BodySums<Dim> sum_over_marked(const Slide<Dim>& slide, const band::SumsOfParticle<Dim>& of_particle,
+                                    const Marks& marks) {
+  using Sums = band::BodySums<Dim>;
+  return mpm::sum_over_particles<Sums>(
+      slide.grid, [&](std::uint32_t p) { return marks[p] != 0 ? of_particle(slide.particles, p) : Sums{}; });
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
+  template Marks marks_of_invalid<Dim>(const config::Guards&, const mpm::Particles<Dim>&, mpm::InvalidParticle&);    \
+  template void mark_left<Dim>(const Setup<Dim>&, const Slide<Dim>&, bool, Marks&, mpm::InvalidParticle&);           \
+  template void add_removed<Dim>(const Setup<Dim>&, const Slide<Dim>&, const Marks&, const Budget<Dim>&,             \
+                                 const band::SumsOfParticle<Dim>&, Budget<Dim>&);                                    \
+  template mpm::InvalidParticle first_invalid<Dim>(const config::Guards&, const mpm::Particles<Dim>&, const Marks&); \
+  template band::BodySums<Dim> sum_over_marked<Dim>(const Slide<Dim>&, const band::SumsOfParticle<Dim>&, const Marks&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

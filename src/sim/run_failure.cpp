@@ -1,15 +1,14 @@
-// Message of a failed run: particle, position, time and probable cause.
+#include "sim/run_failure.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "config/case_proposal.hpp"
 #include "config/plausibility.hpp"
 #include "physics/mixture.hpp"
 #include "sim/path_line.hpp"
-#include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 
@@ -127,44 +126,31 @@ std::string compressed_pores(const mpm::Particles<Dim>& particles) {
 
 }  // namespace
 
-// Throws if no particle has that id.
 template <int Dim>
-std::size_t Simulation<Dim>::index_in_memory(std::int64_t id) const {
-  std::size_t p = 0;
-  while (p < particles_.size() && particles_.id(p) != id) {
-    ++p;
-  }
-  THAWSLIDE_ASSERT(p < particles_.size(), "bad particle {} is not among the particles", id);
-  return p;
-}
-
-// Position in the coordinates of the case [m].
-template <int Dim>
-Vector<double, Dim> Simulation<Dim>::position_of(std::size_t p) const {
+Vector<double, Dim> position_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles, std::size_t p) {
   Vector<double, Dim> position;
   for (int a = 0; a < Dim; ++a) {
-    position[a] = static_cast<double>(particles_.position(p, a)) + model_.origin[a];
+    position[a] = static_cast<double>(particles.position(p, a)) + model.origin[a];
   }
   return position;
 }
 
 template <int Dim>
-std::string Simulation<Dim>::particle_text(std::size_t p) const {
-  const Vector<double, Dim> position = position_of(p);
+std::string FailureText<Dim>::name_of(std::size_t p) const {
+  const Vector<double, Dim> position = position_of(setup_.model, particles_, p);
   std::string numbers;
   for (int a = 0; a < Dim; ++a) {
     numbers += fmt::format("{}{}", a == 0 ? "" : ", ", coordinate_text(position[a]));
   }
   return fmt::format("particle {} of body '{}' at ({}) m", particles_.id(p),
-                     model_.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
+                     setup_.model.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
 }
 
-// Describes the fault of the particle in invalid_.
 template <int Dim>
-std::string Simulation<Dim>::fault_text(std::size_t p) const {
+std::string FailureText<Dim>::fault_text(std::size_t p, mpm::Fault fault) const {
   const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
-  const config::Guards& guards = parameters_.guards;
-  switch (invalid_.fault) {
+  const config::Guards& guards = setup_.parameters.guards;
+  switch (fault) {
     case mpm::Fault::volume_not_finite:
       return "its volume is not a finite number";
     case mpm::Fault::volume_not_positive:
@@ -189,9 +175,9 @@ std::string Simulation<Dim>::fault_text(std::size_t p) const {
 
 // Stopping distance of a particle by friction, v2/(2 g tan(angle)), compared with the distance to the edge of the DEM.
 template <int Dim>
-std::string Simulation<Dim>::terrain_ahead(std::size_t p) const {
+std::string FailureText<Dim>::terrain_ahead(std::size_t p, mpm::Fault fault) const {
   const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
-  const double gravity = static_cast<double>(model_.motion.gravity.norm());
+  const double gravity = static_cast<double>(setup_.model.motion.gravity.norm());
   constexpr double angle = config::usual_reach_angle, degree = pi / 180.0, rounded_to = 10.0;
   const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
   const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
@@ -199,12 +185,12 @@ std::string Simulation<Dim>::terrain_ahead(std::size_t p) const {
       "With {:g} degrees of friction, the reach angle that `thawslide new` assumes, it would go about {:.0f} m "
       "further on level ground, and more where the ground falls. ",
       angle, further);
-  if (Dim == 2 || site_.ground == nullptr || invalid_.fault == mpm::Fault::left_map) {
+  if (Dim == 2 || setup_.site.ground == nullptr || fault == mpm::Fault::left_map) {
     return level;
   }
-  const Point2 position{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
-                        static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
-  const double to_edge = distance_to_domain_edge(site_, position, {velocity[0], velocity[1]});
+  const Point2 position{static_cast<double>(particles_.position(p, 0)) + setup_.model.origin[0],
+                        static_cast<double>(particles_.position(p, 1)) + setup_.model.origin[1]};
+  const double to_edge = distance_to_domain_edge(setup_.site, position, {velocity[0], velocity[1]});
   return level + (to_edge <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
                                     "it. {}",
@@ -213,26 +199,26 @@ std::string Simulation<Dim>::terrain_ahead(std::size_t p) const {
 }
 
 template <int Dim>
-bool Simulation<Dim>::is_too_soft(std::size_t p) const {
-  const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
-  return parameters_.materials.at(material).youngs_modulus < config::softest_modulus;
+bool FailureText<Dim>::is_too_soft(std::size_t p) const {
+  const std::string& material = setup_.model.material_names[static_cast<std::size_t>(particles_.material(p))];
+  return setup_.parameters.materials.at(material).youngs_modulus < config::softest_modulus;
 }
 
 template <int Dim>
-std::string Simulation<Dim>::step_to_halve() const {
-  return parameters_.time.stepping == config::Stepping::fixed ? "time.step" : "time.safety";
+std::string FailureText<Dim>::step_to_halve() const {
+  return setup_.parameters.time.stepping == config::Stepping::fixed ? "time.step" : "time.safety";
 }
 
 template <int Dim>
-std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
-  const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
+std::string FailureText<Dim>::cause_in_material(std::size_t p) const {
+  const std::string& material = setup_.model.material_names[static_cast<std::size_t>(particles_.material(p))];
   if (is_too_soft(p)) {
     return fmt::format(
         "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa) and collapses under its own weight. Typical "
         "values for broken rock and ice are 1e7 Pa or more.",
-        material, parameters_.materials.at(material).youngs_modulus);
+        material, setup_.parameters.materials.at(material).youngs_modulus);
   }
-  const bool blends = parameters_.mechanics.transfer == config::Transfer::blend;
+  const bool blends = setup_.parameters.mechanics.transfer == config::Transfer::blend;
   return fmt::format(
       "Likely cause: the step is too long for the material, the material is too soft for its load, or it has "
       "separated. Try half of {}, a larger viscosity_number or viscosity_time of the material, or {}.",
@@ -241,14 +227,14 @@ std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
 }
 
 template <int Dim>
-std::string Simulation<Dim>::likely_cause(std::size_t p) const {
+std::string FailureText<Dim>::likely_cause(std::size_t p, mpm::Fault fault) const {
   const std::string too_long = cause_in_material(p);
   if (is_too_soft(p)) {
     return too_long;
   }
-  const bool pressurized = model_.band.heat && model_.band.pressure;
-  if (invalid_.fault == mpm::Fault::state_not_finite && pressurized) {
-    const bool is_rigid = parameters_.pressure.skeleton_compressibility == 0.0;
+  const bool pressurized = setup_.model.band.heat && setup_.model.band.pressure;
+  if (fault == mpm::Fault::state_not_finite && pressurized) {
+    const bool is_rigid = setup_.parameters.pressure.skeleton_compressibility == 0.0;
     const std::string compressed = is_rigid ? compressed_pores(particles_) : "";
     const std::string closed = compressed.empty() ? closed_pores(particles_) : compressed;
     return closed.empty() ? too_long : closed;
@@ -257,17 +243,16 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
   const double own = static_cast<double>(velocity.norm());
   const std::string towards =
       Dim == 2 ? "" : " towards the " + heading(static_cast<double>(velocity[0]), static_cast<double>(velocity[1]));
-  if (invalid_.fault == mpm::Fault::left_map) {
-    return fmt::format("It moves at {} m/s{}. {}", rounded_text(own, 3), towards, terrain_ahead(p)) +
+  if (fault == mpm::Fault::left_map) {
+    return fmt::format("It moves at {} m/s{}. {}", rounded_text(own, 3), towards, terrain_ahead(p, fault)) +
            "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to remove such "
            "particles. " +
            advice_to_recrop;
   }
-  if (invalid_.fault != mpm::Fault::left_domain) {
+  if (fault != mpm::Fault::left_domain) {
     return too_long;
   }
-  const BodySums<Dim> sums = sum_over_body();
-  const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
+  const double mean = std::sqrt(2.0 * static_cast<double>(sums_.kinetic / sums_.mass));
   const std::string speeds = fmt::format("It moves at {} m/s{}, the slide at {} m/s on average. ", rounded_text(own, 3),
                                          towards, rounded_text(mean, 3));
   if (own > runaway * mean) {
@@ -277,59 +262,43 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
         speeds, step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
-  const int exit_axis =
-      axis_of_exit<Dim>(particles_.position.template get<Vector<Real, Dim>>(p), velocity, model_.constraints.extent);
+  const int exit_axis = axis_of_exit<Dim>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
+                                          setup_.model.constraints.extent);
   if (Dim == 2) {
     return too_far + "; widen them in its direction.";
   }
   if (exit_axis == Dim - 1) {
     return too_far + (velocity[exit_axis] > Real(0) ? "; widen them upwards." : "; widen them downwards.");
   }
-  return too_far + ". " + terrain_ahead(p) + (site_.ground ? "" : "Widen [grid] that way.");
+  return too_far + ". " + terrain_ahead(p, fault) + (setup_.site.ground ? "" : "Widen [grid] that way.");
 }
 
 template <int Dim>
-void Simulation<Dim>::stop_if_invalid() {
-  if (invalid_.id < 0) {
-    return;
-  }
-  const std::size_t p = index_in_memory(invalid_.id);
-  throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
-                             particle_text(p), fault_text(p), likely_cause(p)));
+std::string FailureText<Dim>::of_particle(const mpm::InvalidParticle& invalid) const {
+  const std::size_t p = slide_.index_of(invalid.id);
+  return fmt::format("{}: {}. {}", name_of(p), fault_text(p, invalid.fault), likely_cause(p, invalid.fault));
 }
 
 template <int Dim>
-void Simulation<Dim>::stop_for_energy(double growth, double fraction) const {
-  sync_to_host();
+std::string FailureText<Dim>::of_energy(double energy, double fraction) const {
   const std::size_t fastest = fastest_particle(particles_);
-  const BodySums<Dim> sums = sum_over_body();
   const std::string cause =
-      parameters_.basal.distance_check || !model_.ground || is_too_soft(fastest)
+      setup_.parameters.basal.distance_check || !setup_.model.ground || is_too_soft(fastest)
           ? cause_in_material(fastest)
           : "Likely cause: without basal.distance_check the terrain acts up to a cell early, and falling material "
             "rebounds with more energy than it had. Set it to true.";
-  throw RunError(fmt::format(
-      "the run failed at t = {:.6g} s (step {}): energy grew by {:.3g} J{} without a physical cause, {:.3g} % of all "
-      "energy so far (guards.energy_growth allows {:g} %). The fastest particle, {}, moves at {} m/s, the slide at {} "
-      "m/s on average. {}",
-      time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * fraction,
-      100.0 * parameters_.guards.energy_growth, particle_text(fastest).substr(std::string("particle ").size()),
+  return fmt::format(
+      "energy grew by {:.3g} J{} without a physical cause, {:.3g} % of all energy so far (guards.energy_growth allows "
+      "{:g} %). The fastest particle, {}, moves at {} m/s, the slide at {} m/s on average. {}",
+      energy, Dim == 2 ? " per m of width" : "", 100.0 * fraction, 100.0 * setup_.parameters.guards.energy_growth,
+      name_of(fastest).substr(std::string("particle ").size()),
       rounded_text(static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()), 3),
-      rounded_text(std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass)), 3), cause));
+      rounded_text(std::sqrt(2.0 * static_cast<double>(sums_.kinetic / sums_.mass)), 3), cause);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                              \
-  template std::size_t Simulation<Dim>::index_in_memory(std::int64_t) const;    \
-  template Vector<double, Dim> Simulation<Dim>::position_of(std::size_t) const; \
-  template std::string Simulation<Dim>::particle_text(std::size_t) const;       \
-  template std::string Simulation<Dim>::fault_text(std::size_t) const;          \
-  template std::string Simulation<Dim>::terrain_ahead(std::size_t) const;       \
-  template bool Simulation<Dim>::is_too_soft(std::size_t) const;                \
-  template std::string Simulation<Dim>::step_to_halve() const;                  \
-  template std::string Simulation<Dim>::cause_in_material(std::size_t) const;   \
-  template std::string Simulation<Dim>::likely_cause(std::size_t) const;        \
-  template void Simulation<Dim>::stop_for_energy(double, double) const;         \
-  template void Simulation<Dim>::stop_if_invalid();
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                           \
+  template Vector<double, Dim> position_of<Dim>(const Model<Dim>&, const mpm::Particles<Dim>&, std::size_t); \
+  template class FailureText<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

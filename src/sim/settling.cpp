@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
@@ -11,7 +10,8 @@ namespace thawslide::sim {
 
 template <int Dim>
 bool Simulation<Dim>::needs_settling() const {
-  return parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle;
+  return setup_.parameters.mechanics.enabled &&
+         setup_.parameters.mechanics.initial_stress == config::InitialStress::settle;
 }
 
 template <int Dim>
@@ -19,46 +19,47 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   if (!needs_settling()) {
     return true;
   }
-  THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
-                   static_cast<std::size_t>(next_id_) - particles_at_start_);
-  release_device();
-  const Model<Dim> model = model_;
-  model_.band.heat = model_.band.pressure = false;
-  model_.constraints.frames.clear();
-  model_.release_times.clear();  // all bodies settle together
-  model_.splits_stretched = false;
-  model_.contact.base_is_fixed = true;
-  model_.contact.band_columns = false;
-  band_columns_.reset();
-  model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
+  THAWSLIDE_ASSERT(slide_->particles.size() == static_cast<std::size_t>(slide_->next_id),
+                   "{} particles joined before the settling",
+                   static_cast<std::size_t>(slide_->next_id) - slide_->count_at_start);
+  solver().release();
+  const Model<Dim> model = setup_.model;
+  setup_.model.band.heat = setup_.model.band.pressure = false;
+  setup_.model.constraints.frames.clear();
+  setup_.model.release_times.clear();  // all bodies settle together
+  setup_.model.splits_stretched = false;
+  setup_.model.contact.base_is_fixed = true;
+  setup_.model.contact.band_columns = false;
+  base_.columns.reset();
+  setup_.model.contact.mass_damping = static_cast<Real>(setup_.parameters.mechanics.settle_damping);
   // No particle may leave.
-  const config::Policy leaving = std::exchange(parameters_.grid.leaving, config::Policy::stop);
-  const config::Guards guards = parameters_.guards;
-  parameters_.guards.not_finite = parameters_.guards.volume = config::Policy::stop;
-  const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
-                                                                         : parameters_.time.safety * step_limit().step;
-  const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
+  const config::Policy leaving = std::exchange(setup_.parameters.grid.leaving, config::Policy::stop);
+  const config::Guards guards = setup_.parameters.guards;
+  setup_.parameters.guards.not_finite = setup_.parameters.guards.volume = config::Policy::stop;
+  const double dt = setup_.parameters.time.stepping == config::Stepping::fixed
+                        ? setup_.parameters.time.step
+                        : setup_.parameters.time.safety * step_limit().step;
+  const auto steps = static_cast<std::int64_t>(std::ceil(setup_.parameters.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
     if (!may_continue()) {
-      time_ = 0.0;  // no time of the run itself has been simulated
-      step_number_ = 0;
+      clock_ = {};  // no time of the run itself has been simulated
       return false;
     }
     step(dt);
   }
-  parameters_.grid.leaving = leaving;
-  parameters_.guards = guards;
-  release_device();
+  setup_.parameters.grid.leaving = leaving;
+  setup_.parameters.guards = guards;
+  solver().release();
   // Assigns the settled stress to the particles as seeded, so nothing else of the settling remains.
-  std::vector<SymmetricTensor<Real>> settled(particles_.size());
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim>(particles_.stress, p);
+  std::vector<SymmetricTensor<Real>> settled(slide_->particles.size());
+  for (std::size_t p = 0; p < slide_->particles.size(); ++p) {
+    settled[static_cast<std::size_t>(slide_->particles.id(p))] = mpm::full_tensor<Dim>(slide_->particles.stress, p);
   }
-  model_ = model;
+  setup_.model = model;
   seed();
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
+  for (std::size_t p = 0; p < slide_->particles.size(); ++p) {
     for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
-      particles_.stress(p, c) = settled[static_cast<std::size_t>(particles_.id(p))][c];
+      slide_->particles.stress(p, c) = settled[static_cast<std::size_t>(slide_->particles.id(p))][c];
     }
   }
   begin();

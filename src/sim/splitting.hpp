@@ -1,10 +1,15 @@
-// Fields used for splitting stretched particles (mpm/splitting.hpp).
+// Splitting of particles that have been stretched along the ground (mpm/splitting.hpp), between two steps.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "mpm/particles.hpp"
 #include "mpm/splitting.hpp"
+#include "sim/setup.hpp"
+#include "sim/slide.hpp"
 
 namespace thawslide::sim {
 
@@ -22,5 +27,29 @@ void set_unsplit(mpm::Particles<Dim>& particles, std::size_t first = 0) {
     particles.parent_id(p) = particles.id(p);
   }
 }
+
+inline constexpr std::int64_t split_interval = 10;  // steps between checks
+
+// Particle that is split in two, and half of the way between its halves.
+template <int Dim>
+struct Split {
+  std::size_t particle = 0;  // in memory
+  std::array<Vector<Real, Dim>, 2> positions;
+  Vector<Real, Dim - 1> direction;  // along which it is halved
+
+  [[nodiscard]] Vector<Real, Dim> half_way() const { return Real(0.5) * (positions[1] - positions[0]); }
+};
+
+// Particles to be split, by id. The limit admits those of smallest id.
+template <int Dim>
+[[nodiscard]] std::vector<Split<Dim>> splits_due(const Setup<Dim>& setup, const Slide<Dim>& slide);
+
+// Splits particles; the new ones are last in memory. Adds the energy gained to `energy` [J].
+template <int Dim>
+void split(const Setup<Dim>& setup, const std::vector<Split<Dim>>& due, Slide<Dim>& slide, Real& energy);
+
+// Warning that mechanics.split_limit prevents further splitting; empty if it does not.
+template <int Dim>
+[[nodiscard]] std::string split_warning(const Setup<Dim>& setup, const Slide<Dim>& slide, double time);
 
 }  // namespace thawslide::sim

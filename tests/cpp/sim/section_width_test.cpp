@@ -126,8 +126,7 @@ TEST(SectionWidth, StrainsLikeAnExpandingCylinder) {
     particles.step_displacement(p, 0) = dt * a * particles.position(p, 0);
     particles.step_displacement(p, 1) = 0.0;
   }
-  mpm::InvalidParticle invalid;
-  mpm::update_stress_and_porosity(grid, particles, model, dt, nodes, invalid);
+  mpm::update_stress_and_porosity(grid, particles, model, dt, nodes);
   const double strain = a * dt / (1.0 + 0.5 * a * dt), lame = 1e8 * 0.3 / (1.3 * 0.4), shear = 1e8 / 2.6;
   const double ratio = (1.0 + a * dt) * (1.0 + a * dt);
   for (std::size_t p = 0; p < particles.size(); ++p) {

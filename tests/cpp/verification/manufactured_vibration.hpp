@@ -132,7 +132,6 @@ class ManufacturedVibration {
   }
 
   void step(double dt) {
-    mpm::InvalidParticle invalid;
     grid_.update(particles_, 64);
     mpm::momentum_to_grid(grid_, particles_, model_, nodes_);
     add_body_force();
@@ -141,8 +140,8 @@ class ManufacturedVibration {
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
     terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2>{}, model_.gravity, time_,
                                    dt, nodes_);
-    mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, invalid);
-    mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, invalid);
+    mpm::InvalidParticle invalid = mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_).invalid;
+    invalid += mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent);
     THAWSLIDE_ASSERT(invalid.id < 0, "particle {} failed at {} s", invalid.id, time_);
     time_ += dt;
   }

@@ -1,0 +1,53 @@
+// Time step of a slide on one of two executors, the CPU or a device, and reductions over its particles.
+#pragma once
+
+#include "band/body_sums.hpp"
+#include "band/step_extremes.hpp"
+#include "device/step_sums.hpp"
+#include "mpm/front.hpp"
+#include "mpm/monitor_sums.hpp"
+#include "terrain/strength_law.hpp"
+
+namespace thawslide::device {
+struct MapSample;
+}  // namespace thawslide::device
+namespace thawslide::mpm {
+struct MapCells;
+}  // namespace thawslide::mpm
+namespace thawslide::sim {
+
+using band::BodySums, device::StepSums;
+
+template <int Dim>
+class Solver {
+ public:
+  Solver() = default;
+  virtual ~Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  // Transfers the particles to where the step is performed, unless they are there.
+  virtual void start() = 0;
+  // Advances particles by dt [s] from the time of the clock. strength: replaces the basal laws of the case; only on the
+  // CPU. If it throws, the particles are those before the step.
+  virtual StepSums<Dim> step(Real dt, const terrain::StrengthLaw* strength) = 0;
+  // True if the last step has shown that no particle has left. Otherwise all have to be checked in host memory.
+  [[nodiscard]] virtual bool none_has_left() const = 0;
+
+  // Reductions over all particles. Extremes limit the next step.
+  [[nodiscard]] virtual band::StepExtremes extremes() const = 0;
+  [[nodiscard]] virtual mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) const = 0;
+  [[nodiscard]] virtual BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const = 0;
+  // mass: of the bodies of the path [kg].
+  [[nodiscard]] virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const = 0;
+  // Sums for maps; null on the CPU, where maps read the particles.
+  [[nodiscard]] virtual const device::MapSample* sample_map(const mpm::MapCells& cells) const = 0;
+
+  // Updates the particles in host memory; the second function also updates their grid.
+  virtual void copy_particles_back() const = 0;
+  virtual void sync_to_host() const = 0;
+  // The same; the next step begins with the particles in host memory.
+  virtual void release() = 0;
+};
+
+}  // namespace thawslide::sim
