@@ -16,7 +16,7 @@
 #include "run/map_files.hpp"
 #include "run/run_loop.hpp"
 #include "run/setup_warnings.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::app {
 

@@ -4,8 +4,8 @@
 
 #include "mpm/particles.hpp"
 #include "run/map_output.hpp"
-#include "sim/map_kinds.hpp"
-#include "sim/output_columns.hpp"
+#include "sim/maps/map_kinds.hpp"
+#include "sim/records/output_columns.hpp"
 
 namespace thawslide::app {
 

@@ -31,7 +31,7 @@
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
 #include "sim/memory_need.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::app {
 

@@ -13,7 +13,7 @@
 #include "config/input_limits.hpp"
 #include "config/section_proposal.hpp"
 #include "io/terrain_csv.hpp"
-#include "sim/section.hpp"
+#include "sim/block/section.hpp"
 
 namespace thawslide::app {
 

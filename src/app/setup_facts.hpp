@@ -11,9 +11,9 @@
 #include "run/device_choice.hpp"
 #include "run/disk_need.hpp"
 #include "run/run_cost.hpp"
-#include "sim/body_figures.hpp"
+#include "sim/checks/body_figures.hpp"
 #include "sim/memory_need.hpp"
-#include "sim/time_step.hpp"
+#include "sim/solver/time_step.hpp"
 
 namespace thawslide::app {
 

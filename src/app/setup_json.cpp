@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/release_body.hpp"
+#include "sim/setup/release_body.hpp"
 
 namespace thawslide::app {
 

@@ -1,4 +1,4 @@
-// Particle extremes that limit the time step (sim/time_step.hpp).
+// Particle extremes that limit the time step (sim/solver/time_step.hpp).
 #pragma once
 
 #include <cmath>

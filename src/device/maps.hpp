@@ -1,5 +1,5 @@
-// Sums for maps (sim/flow_maps.hpp), in device memory. After a change of tiles, the map cells below them are renumbered
-// by sorting their keys.
+// Sums for maps (sim/maps/flow_maps.hpp), in device memory. After a change of tiles, the map cells below them are
+// renumbered by sorting their keys.
 #pragma once
 
 #include <cmath>

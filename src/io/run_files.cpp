@@ -28,7 +28,7 @@ using IsOwn = std::function<bool(const fs::path& file)>;
 constexpr std::string_view files_of_a_run[] = {
     "history.csv", "probes.csv",      "case.toml",    "terrain.csv", "particles.vtkhdf",      checkpoint_name,
     "report.html", "comparison.html", "summary.html", "summary.pdf", previous_checkpoint_name};
-// In maps/, as GeoTIFF with a style (sim/map_kinds.cpp, app/map_output.cpp).
+// In maps/, as GeoTIFF with a style (sim/maps/map_kinds.cpp, app/map_output.cpp).
 constexpr std::string_view maps_of_a_run[] = {
     "terrain",           "release",      "ground",       "max_thickness",    "final_thickness",       "max_speed",
     "max_momentum_flux", "max_pressure", "arrival_time", "elevation_change", "max_basal_temperature", "max_melt",

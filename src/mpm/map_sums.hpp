@@ -1,5 +1,5 @@
 // Sums of the sliding mass over the cells of a map: particle boxes are distributed over the cells below them
-// (sim/flow_maps.hpp). 3D only.
+// (sim/maps/flow_maps.hpp). 3D only.
 #pragma once
 
 #include <cmath>

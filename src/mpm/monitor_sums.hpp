@@ -1,4 +1,4 @@
-// Sums over all particles for the run monitor (sim/monitor.hpp).
+// Sums over all particles for the run monitor (sim/between_steps/monitor.hpp).
 #pragma once
 
 #include <cstdint>

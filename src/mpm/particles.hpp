@@ -10,6 +10,9 @@
 
 namespace thawslide::mpm {
 
+// Largest number of particles. Limit of index arithmetic: an affine velocity has nine numbers per particle.
+inline constexpr double most_particles = 2.3e8;
+
 template <int Dim>
 class Particles {
  public:

@@ -10,8 +10,8 @@
 #include "config/profile_csv.hpp"
 #include "run/map_files.hpp"
 #include "run/warnings.hpp"
-#include "sim/block.hpp"
-#include "sim/path_section.hpp"
+#include "sim/block/block.hpp"
+#include "sim/block/path_section.hpp"
 
 namespace thawslide::run {
 

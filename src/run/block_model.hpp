@@ -6,7 +6,7 @@
 
 #include "config/case.hpp"
 #include "run/observer.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 
 namespace thawslide::run {
 

@@ -12,8 +12,8 @@
 #include "io/snapshot.hpp"
 #include "run/input_files.hpp"
 #include "run/map_output.hpp"
-#include "sim/history.hpp"
 #include "sim/memory_need.hpp"
+#include "sim/records/history.hpp"
 
 namespace thawslide::run {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/flow_maps.hpp"
+#include "sim/maps/flow_maps.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::run {

@@ -15,8 +15,8 @@
 #include "run/setup_warnings.hpp"
 #include "run/state.hpp"
 #include "run/step_warnings.hpp"
-#include "sim/body_figures.hpp"
-#include "sim/run_records.hpp"
+#include "sim/checks/body_figures.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::run {
 

@@ -8,7 +8,7 @@
 
 #include "config/case.hpp"
 #include "run/observer.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "terrain/strength_law.hpp"
 
 namespace thawslide::run {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::run {
 
@@ -38,7 +38,7 @@ void write_ground_maps(const std::filesystem::path& folder, const sim::Simulatio
 // Attributes of the maps.
 struct MapTexts {
   std::string run;        // name of its folder
-  std::string state;      // label of the last state (sim/end_state.hpp)
+  std::string state;      // label of the last state (sim/records/end_state.hpp)
   double time;            // of the last state [s]
   double area_thickness;  // maps.area_thickness [m]
 };

@@ -13,7 +13,7 @@
 #include "run/step_warnings.hpp"
 #include "run/summary.hpp"
 #include "sim/direction.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 
 namespace thawslide::run {
 

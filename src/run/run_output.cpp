@@ -9,8 +9,8 @@
 #include "io/terrain_csv.hpp"
 #include "run/input_files.hpp"
 #include "run/state.hpp"
-#include "sim/base_table.hpp"
-#include "sim/history.hpp"
+#include "sim/records/base_table.hpp"
+#include "sim/records/history.hpp"
 
 namespace thawslide::run {
 

@@ -14,8 +14,8 @@
 #include "io/run_lock.hpp"
 #include "io/snapshot_series.hpp"
 #include "run/map_output.hpp"
-#include "sim/end_state.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/end_state.hpp"
+#include "sim/records/run_records.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::run {

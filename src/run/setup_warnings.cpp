@@ -2,11 +2,11 @@
 
 #include "config/notices.hpp"
 #include "config/reported_values.hpp"
-#include "sim/bodies_apart.hpp"
-#include "sim/body_warnings.hpp"
-#include "sim/domain_bottom.hpp"
-#include "sim/map_grid.hpp"
-#include "sim/unresolved_terrain.hpp"
+#include "sim/checks/bodies_apart.hpp"
+#include "sim/checks/body_warnings.hpp"
+#include "sim/checks/unresolved_terrain.hpp"
+#include "sim/maps/map_grid.hpp"
+#include "sim/setup/domain_bottom.hpp"
 
 namespace thawslide::run {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "run/warnings.hpp"
-#include "sim/body_figures.hpp"
+#include "sim/checks/body_figures.hpp"
 
 namespace thawslide::run {
 

@@ -8,8 +8,8 @@
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "config/input_limits.hpp"
-#include "sim/departure.hpp"
-#include "sim/path_line.hpp"
+#include "sim/maps/path_line.hpp"
+#include "sim/setup/departure.hpp"
 #include "terrain/height_field.hpp"
 
 namespace thawslide::sim {

@@ -8,9 +8,9 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "config/fitting_cell.hpp"
-#include "sim/body_shape.hpp"
-#include "sim/flow_maps.hpp"
-#include "sim/map_grid.hpp"
+#include "sim/maps/flow_maps.hpp"
+#include "sim/maps/map_grid.hpp"
+#include "sim/setup/body_shape.hpp"
 
 namespace thawslide::sim {
 
@@ -175,13 +175,13 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   const MemoryNeed need = memory_need<Dim>(parameters, site, bodies);
   const double smallest = smallest_cell<Dim>(need, cell, available.bytes);
   const std::vector<double> lengths = config::lengths_of_domain(parameters);
-  if (bodies.particles > most_particles) {
-    const double countable = 1.05 * cell * std::pow(bodies.particles / most_particles, 1.0 / Dim);
+  if (bodies.particles > mpm::most_particles) {
+    const double countable = 1.05 * cell * std::pow(bodies.particles / mpm::most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
         "{}: grid.cell is {} m, which makes {} particles; allowed: {}. Make grid.cell {:.9g} m or more, or "
         "particles_per_axis smaller.",
         config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles),
-        rounded_text(most_particles), config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
+        rounded_text(mpm::most_particles), config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
   }
   if (need.total() <= available.bytes) {
     return parameters;

@@ -33,9 +33,6 @@ inline constexpr double usual_spread = 5.0;
 // 3.4 times in whole runs (plane, Lamplugh). Also the cost of such a run over one that splits none: 1.1 to 1.5 times.
 inline constexpr double usual_splitting = 4.0, usual_cost_of_splitting = 1.5;
 
-// Limit of index arithmetic: an affine velocity has nine numbers per particle.
-inline constexpr double most_particles = 2.3e8;
-
 // Memory in bytes.
 struct MemoryNeed {
   double particles = 0.0;  // with the surrounding grid

@@ -1,7 +1,7 @@
 // State of a run stored in checkpoints in addition to its particles, and its restoration.
 #include "base/instances.hpp"
 #include "base/state_numbers.hpp"
-#include "sim/restored_state.hpp"
+#include "sim/setup/restored_state.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -7,11 +7,11 @@
 #include "band/pore_pressure.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
-#include "sim/bodies.hpp"
-#include "sim/device_model.hpp"
+#include "sim/between_steps/entrainment.hpp"
 #include "sim/direction.hpp"
-#include "sim/entrainment.hpp"
 #include "sim/memory_need.hpp"
+#include "sim/setup/bodies.hpp"
+#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 

@@ -8,18 +8,18 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "sim/base.hpp"
-#include "sim/budget.hpp"
-#include "sim/cpu_solver.hpp"
-#include "sim/device_solver.hpp"
-#include "sim/monitor.hpp"
+#include "sim/between_steps/monitor.hpp"
+#include "sim/between_steps/new_particles.hpp"
+#include "sim/between_steps/removed_particles.hpp"
+#include "sim/between_steps/run_failure.hpp"
+#include "sim/between_steps/splitting.hpp"
 #include "sim/moved_mass.hpp"
-#include "sim/new_particles.hpp"
-#include "sim/release_stages.hpp"
-#include "sim/removed_particles.hpp"
-#include "sim/run_failure.hpp"
-#include "sim/splitting.hpp"
-#include "sim/time_step.hpp"
+#include "sim/setup/release_stages.hpp"
+#include "sim/solver/base.hpp"
+#include "sim/solver/budget.hpp"
+#include "sim/solver/cpu_solver.hpp"
+#include "sim/solver/device_solver.hpp"
+#include "sim/solver/time_step.hpp"
 
 namespace thawslide::sim {
 
@@ -65,7 +65,8 @@ class Simulation {
     return sim::is_held(setup_.model.release_times, clock_.time, body);
   }
 
-  // True if the slide is at rest (sim/monitor.hpp). Also the criterion as text, and the time since when it is met [s].
+  // True if the slide is at rest (sim/between_steps/monitor.hpp). Also the criterion as text, and the time since when
+  // it is met [s].
   [[nodiscard]] bool is_at_rest() const { return sim::is_at_rest(setup_, clock_, monitor_); }
   [[nodiscard]] std::string rest_rule() const { return sim::rest_rule(setup_); }
   [[nodiscard]] double rest_since() const { return monitor_.rest_since; }

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "config/section_proposal.hpp"
-#include "sim/monitor.hpp"
+#include "sim/between_steps/monitor.hpp"
 
 namespace thawslide::config {
 namespace {

@@ -16,7 +16,7 @@
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/error.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

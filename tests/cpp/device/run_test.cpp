@@ -9,7 +9,7 @@
 #include "../support/small_terrain.hpp"
 #include "band/basal_segments.hpp"
 #include "run_on_device.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {

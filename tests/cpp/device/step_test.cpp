@@ -17,8 +17,8 @@
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "device/host_backend.hpp"
-#include "sim/device_model.hpp"
 #include "sim/simulation.hpp"
+#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {

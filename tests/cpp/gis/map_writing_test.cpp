@@ -13,7 +13,7 @@
 #include "gis/map_style.hpp"
 #include "gis/vector_file.hpp"
 #include "map_files.hpp"
-#include "sim/map_kinds.hpp"
+#include "sim/maps/map_kinds.hpp"
 
 namespace thawslide::gis {
 namespace {

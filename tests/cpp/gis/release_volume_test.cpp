@@ -9,8 +9,8 @@
 #include "base/raster_sampling.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"
-#include "sim/release_body.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
+#include "sim/setup/release_body.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::gis {

@@ -6,9 +6,9 @@
 
 #include "config/read_case.hpp"
 #include "gis/bed.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
+#include "sim/setup/substrates.hpp"
 #include "sim/simulation.hpp"
-#include "sim/substrates.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -7,7 +7,7 @@
 
 #include "../support/two_bodies.hpp"
 #include "base/parallel.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace {
 

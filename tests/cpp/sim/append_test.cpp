@@ -11,7 +11,7 @@
 #include "../support/reproducible_runs.hpp"
 #include "../support/two_bodies.hpp"
 #include "io/snapshot.hpp"
-#include "sim/end_state.hpp"
+#include "sim/records/end_state.hpp"
 
 namespace thawslide::sim {
 namespace {

@@ -12,10 +12,10 @@
 #include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/thread_choice.hpp"
-#include "sim/base_table.hpp"
-#include "sim/block.hpp"
-#include "sim/block_band_column.hpp"
-#include "sim/history.hpp"
+#include "sim/block/block.hpp"
+#include "sim/block/block_band_column.hpp"
+#include "sim/records/base_table.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -7,8 +7,8 @@
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
-#include "sim/block.hpp"
-#include "sim/history.hpp"
+#include "sim/block/block.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -9,8 +9,8 @@
 #include "../support/fields.hpp"
 #include "../support/messages.hpp"
 #include "base/portability.hpp"
-#include "sim/bodies_apart.hpp"
-#include "sim/history.hpp"
+#include "sim/checks/bodies_apart.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

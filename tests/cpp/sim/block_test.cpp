@@ -1,5 +1,5 @@
 // Input of the rigid block from a case.
-#include "sim/block.hpp"
+#include "sim/block/block.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Volumes, thicknesses and support of bodies, compared with sums by hand.
-#include "sim/body_figures.hpp"
+#include "sim/checks/body_figures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "../support/base_cases.hpp"
 #include "../support/messages.hpp"
-#include "sim/body_warnings.hpp"
+#include "sim/checks/body_warnings.hpp"
 
 namespace thawslide::sim {
 namespace {

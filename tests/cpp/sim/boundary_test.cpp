@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../support/base_cases.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -9,7 +9,7 @@
 #include "../support/slide_in_space.hpp"
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -1,5 +1,5 @@
 // Area covered by a slide: the given outline before it moves, fractions of cells at its edge after it has moved.
-#include "sim/covered_area.hpp"
+#include "sim/maps/covered_area.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 
 #include "../support/base_cases.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "sim/block.hpp"
-#include "sim/history.hpp"
+#include "sim/block/block.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

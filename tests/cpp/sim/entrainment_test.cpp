@@ -10,7 +10,7 @@
 #include "../support/reproducible_runs.hpp"
 #include "../support/two_bodies.hpp"
 #include "band/basal_segments.hpp"
-#include "sim/block.hpp"
+#include "sim/block/block.hpp"
 
 namespace thawslide::sim {
 namespace {

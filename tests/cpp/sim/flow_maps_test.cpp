@@ -1,6 +1,6 @@
 // Maps of a 3D slide: fractions of boxes, sums, peak values, independence of threads and of the order in memory; stored
 // ground.
-#include "sim/flow_maps.hpp"
+#include "sim/maps/flow_maps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,9 +13,9 @@
 #include "../support/following_plane.hpp"
 #include "../support/following_slides.hpp"
 #include "../support/reproducible_runs.hpp"
-#include "sim/domain_bottom.hpp"
-#include "sim/map_grid.hpp"
-#include "sim/run_records.hpp"
+#include "sim/maps/map_grid.hpp"
+#include "sim/records/run_records.hpp"
+#include "sim/setup/domain_bottom.hpp"
 
 namespace thawslide::sim {
 namespace {

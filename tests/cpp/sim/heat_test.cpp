@@ -7,7 +7,7 @@
 #include "../support/base_cases.hpp"
 #include "base/error.hpp"
 #include "base/portability.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -7,7 +7,7 @@
 #include "../support/base_cases.hpp"
 #include "../support/messages.hpp"
 #include "physics/mixture.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

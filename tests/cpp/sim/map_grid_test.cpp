@@ -1,5 +1,5 @@
 // The grid of maps: location of its cells and their maximum number.
-#include "sim/map_grid.hpp"
+#include "sim/maps/map_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include "../support/messages.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "band/basal_segment.hpp"
-#include "sim/flow_maps.hpp"
-#include "sim/map_grid.hpp"
+#include "sim/maps/flow_maps.hpp"
+#include "sim/maps/map_grid.hpp"
 
 namespace thawslide::sim {
 namespace {

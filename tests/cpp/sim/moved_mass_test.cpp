@@ -6,9 +6,9 @@
 #include "../support/base_cases.hpp"
 #include "../support/slide_in_space.hpp"
 #include "sim/direction.hpp"
-#include "sim/end_state.hpp"
-#include "sim/history.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/end_state.hpp"
+#include "sim/records/history.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::sim {
 namespace {

@@ -1,5 +1,5 @@
 // The declared columns are those written by a run.
-#include "sim/output_columns.hpp"
+#include "sim/records/output_columns.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include "../support/column_slab.hpp"
 #include "../support/slide_in_space.hpp"
 #include "../support/two_bodies.hpp"
-#include "sim/base_table.hpp"
-#include "sim/block.hpp"
-#include "sim/history.hpp"
-#include "sim/run_records.hpp"
+#include "sim/block/block.hpp"
+#include "sim/records/base_table.hpp"
+#include "sim/records/history.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::sim {
 namespace {

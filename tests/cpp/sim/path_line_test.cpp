@@ -1,13 +1,13 @@
 // Lines along which the travel distance is measured, and the front.
-#include "sim/path_line.hpp"
+#include "sim/maps/path_line.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sim/front.hpp"
-#include "sim/run_figures.hpp"
+#include "sim/records/run_figures.hpp"
+#include "sim/solver/front.hpp"
 
 namespace thawslide::sim {
 namespace {

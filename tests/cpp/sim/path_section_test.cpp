@@ -1,5 +1,5 @@
 // The rigid block of a 3D case: its section along a path.
-#include "sim/path_section.hpp"
+#include "sim/block/path_section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include "../support/messages.hpp"
 #include "../support/small_terrain.hpp"
 #include "physics/basal/laws.hpp"
-#include "sim/block.hpp"
-#include "sim/steepest_descent.hpp"
+#include "sim/block/block.hpp"
+#include "sim/block/steepest_descent.hpp"
 
 namespace thawslide::sim {
 namespace {

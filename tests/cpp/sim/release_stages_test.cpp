@@ -9,10 +9,10 @@
 #include "../support/messages.hpp"
 #include "../support/reproducible_runs.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "sim/device_model.hpp"
-#include "sim/history.hpp"
-#include "sim/run_records.hpp"
+#include "sim/records/history.hpp"
+#include "sim/records/run_records.hpp"
 #include "sim/simulation.hpp"
+#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {

@@ -9,8 +9,8 @@
 #include "base/parallel.hpp"
 #include "config/scheduled_events.hpp"
 #include "io/checkpoint.hpp"
-#include "sim/end_state.hpp"
-#include "sim/history.hpp"
+#include "sim/records/end_state.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -1,5 +1,5 @@
 // Records of a 3D run: probes compared with the maps and the particles, the front along a path, figures, resuming.
-#include "sim/run_records.hpp"
+#include "sim/records/run_records.hpp"
 
 #include <gtest/gtest.h>
 

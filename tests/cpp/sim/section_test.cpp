@@ -1,5 +1,5 @@
 // Sections through a DEM along a line.
-#include "sim/section.hpp"
+#include "sim/block/section.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,11 +8,11 @@
 #include "../support/column_slab.hpp"
 #include "../support/fields.hpp"
 #include "../support/messages.hpp"
-#include "sim/block.hpp"
-#include "sim/body_figures.hpp"
-#include "sim/device_model.hpp"
-#include "sim/history.hpp"
+#include "sim/block/block.hpp"
+#include "sim/checks/body_figures.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
+#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {

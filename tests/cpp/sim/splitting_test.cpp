@@ -11,7 +11,7 @@
 #include "../support/following_slides.hpp"
 #include "../support/messages.hpp"
 #include "../support/reproducible_runs.hpp"
-#include "sim/device_model.hpp"
+#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {

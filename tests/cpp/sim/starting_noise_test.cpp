@@ -3,7 +3,7 @@
 
 #include "../support/fields.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "sim/release_body.hpp"
+#include "sim/setup/release_body.hpp"
 
 namespace thawslide::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
 #include "base/portability.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

@@ -1,5 +1,5 @@
 // Warnings name what cells that follow the terrain do not represent, and are absent on terrain that they do.
-#include "sim/unresolved_terrain.hpp"
+#include "sim/checks/unresolved_terrain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Base of a block in a valley: channels with known factors; planes and ridges with a factor of 1.
-#include "sim/valley_factor.hpp"
+#include "sim/checks/valley_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "../support/slide_on_dem.hpp"
-#include "sim/block.hpp"
-#include "sim/path_section.hpp"
+#include "sim/block/block.hpp"
+#include "sim/block/path_section.hpp"
 
 namespace thawslide::sim {
 namespace {

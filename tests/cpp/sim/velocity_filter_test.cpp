@@ -12,7 +12,7 @@
 #include "../support/fields.hpp"
 #include "../support/record.hpp"
 #include "base/parallel.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

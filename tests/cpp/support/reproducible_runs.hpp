@@ -10,7 +10,7 @@
 #include "case_from_text.hpp"
 #include "fields.hpp"
 #include "io/checkpoint.hpp"
-#include "sim/history.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::testing_support {

@@ -1,7 +1,7 @@
 // A block on a draining band arrests or runs away depending on the hydraulic conductivity k of the band, as in Goren
 // and Aharonov (2009); their numbers are not compared.
 #include "../exact/water.hpp"
-#include "sim/block.hpp"
+#include "sim/block/block.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

@@ -1,7 +1,7 @@
 // A block that slides on basal laws with an exact solution: with the material point method, and as a rigid block.
 #include <map>
 
-#include "sim/block.hpp"
+#include "sim/block/block.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

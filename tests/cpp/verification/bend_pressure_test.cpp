@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "physics/contact.hpp"
-#include "sim/block.hpp"
+#include "sim/block/block.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../support/slide_on_dem.hpp"
-#include "sim/front.hpp"
+#include "sim/solver/front.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification::cylinder_column {

@@ -1,6 +1,6 @@
 // Slides on DEMs that are rotated and shifted relative to the grid, or mirror-symmetric.
 #include "../support/slide_on_dem.hpp"
-#include "sim/front.hpp"
+#include "sim/solver/front.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

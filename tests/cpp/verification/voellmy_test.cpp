@@ -3,7 +3,7 @@
 //   dv/dt = a - g v^2/(xi h),  a = g (sin(theta) - mu cos(theta))
 #include <map>
 
-#include "sim/block.hpp"
+#include "sim/block/block.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

@@ -20,7 +20,7 @@
 
 #include "device/gpu.hpp"
 #include "measure.hpp"
-#include "sim/path_line.hpp"
+#include "sim/maps/path_line.hpp"
 
 namespace thawslide::gpu_test {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "base/error.hpp"
 #include "device/gpu.hpp"
-#include "sim/base_table.hpp"
-#include "sim/body_figures.hpp"
-#include "sim/history.hpp"
-#include "sim/run_records.hpp"
+#include "sim/checks/body_figures.hpp"
+#include "sim/records/base_table.hpp"
+#include "sim/records/history.hpp"
+#include "sim/records/run_records.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

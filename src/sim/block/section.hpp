@@ -1,0 +1,29 @@
+// Vertical section through the ground and a release along a line, from which a 2D case is made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/raster.hpp"
+#include "sim/maps/path_line.hpp"
+
+namespace thawslide::sim {
+
+// Distances along the line [m]: `from`, `to`, the distinct corners between them, and intermediate stations so that none
+// are farther apart than `spacing`.
+[[nodiscard]] std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing);
+
+// Elevations [m] of the triangulated ground at the stations; NaN beyond its points, and at no-data points.
+[[nodiscard]] std::vector<double> ground_along(const PathLine& line, const std::vector<double>& stations,
+                                               const Raster& ground);
+
+// Throws UserError, prefixed with `source`, for the first station up to `to` [m] whose elevation is NaN.
+void require_known(const PathLine& line, const std::vector<double>& stations, const std::vector<double>& elevations,
+                   double to, const Raster& ground, const std::string& source);
+
+// Thickness [m] at the stations, triangulated like the ground, so ground plus thickness equals the triangulated sum; 0
+// beyond its points.
+[[nodiscard]] std::vector<double> thickness_along(const PathLine& line, const std::vector<double>& stations,
+                                                  const Raster& thickness);
+
+}  // namespace thawslide::sim

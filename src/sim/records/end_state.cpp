@@ -1,0 +1,83 @@
+#include "sim/records/end_state.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "base/rounding.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim>
+EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const config::Case& parameters = simulation.parameters();
+  const double width = parameters.general.width.factor();
+  EndState state;
+  state.time = simulation.time();
+  state.rest_rule = simulation.rest_rule();
+  state.left_particles = simulation.removed().left;
+  const Budget<Dim>& budget = simulation.budget();
+  state.left_mass = width * budget.left_mass;
+  state.guarded_mass = width * budget.removed_mass;
+  state.whole_mass = width * (budget.initial_mass + budget.joined_mass);
+  if (slide_left || simulation.device_has_failed() || simulation.particle_count() == 0) {
+    state.rest_since = state.mean_velocity = state.dilation_volume = state.dilation_fraction = unknown;
+    return state;
+  }
+  const BodySums<Dim> sums = simulation.sum_over_body();
+  state.is_known = parameters.mechanics.enabled;
+  state.at_rest = state.is_known && simulation.is_at_rest();
+  state.has_moved = simulation.moved_mass().has_moved;
+  state.rest_since = state.at_rest ? simulation.rest_since() : unknown;
+  state.mean_velocity = sums.momentum.norm() / static_cast<double>(sums.mass);
+  state.dilation_volume = width * sums.volume_change;
+  state.dilation_fraction = sums.volume_change / sums.initial_volume;
+  return state;
+}
+
+std::vector<std::pair<std::string, double>> named(const EndState& state) {
+  return {{"rest_since_s", state.rest_since},
+          {"mean_velocity_m_s", state.mean_velocity},
+          {"dilation_volume_m3", state.dilation_volume},
+          {"dilation_fraction", state.dilation_fraction},
+          {"left_mass_kg", state.left_mass}};
+}
+
+std::string when_text(const EndState& state) {
+  return fmt::format("at {} s{}", rounded_text(state.time, 4),
+                     !state.is_known    ? ""
+                     : !state.at_rest   ? ", not at rest"
+                     : !state.has_moved ? ", has not moved"
+                                        : ", at rest");
+}
+
+std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
+  std::vector<std::string> warnings;
+  if (is_over && state.is_known && !state.at_rest) {
+    warnings.push_back(fmt::format(
+        "the slide is not at rest at {} s (mean velocity {:.3g} m/s; at rest: {}). Volumes, areas, distances and maps "
+        "are those of this time and not of a deposit. Continue with `thawslide resume` and a later --end.",
+        rounded_text(state.time, 3), state.mean_velocity, state.rest_rule));
+  }
+  if (std::abs(state.dilation_fraction) > noticed_dilation) {
+    warnings.push_back(
+        fmt::format("dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
+                    "Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
+                    "gaps_close_first of the materials.",
+                    100.0 * state.dilation_fraction, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
+                    state.dilation_fraction > 0.0 ? "large" : "small"));
+  }
+  if (state.left_particles > 0) {
+    const double mass = state.left_mass - state.guarded_mass;
+    warnings.push_back(
+        fmt::format("{} particles have left the domain or the known terrain and were removed: {} kg, {:.3g} % of the "
+                    "mass. The results do not include them. Use a larger domain or DEM.",
+                    state.left_particles, rounded_text(mass, 3), 100.0 * mass / state.whole_mass));
+  }
+  return warnings;
+}
+
+template EndState end_state<2>(const Simulation<2>&, bool);
+template EndState end_state<3>(const Simulation<3>&, bool);
+
+}  // namespace thawslide::sim

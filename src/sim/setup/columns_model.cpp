@@ -1,0 +1,71 @@
+#include "sim/setup/columns_model.hpp"
+
+#include <cmath>
+
+#include "base/instances.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+template <class Curve>
+physics::ColumnModel<Curve> column_model(const config::Case& parameters, const physics::Phases& phases,
+                                         const Curve& curve, const ColumnMaterial& material) {
+  const config::Pressure& pressure = parameters.pressure;
+  physics::ColumnModel<Curve> column;
+  column.phases = phases;
+  column.curve = curve;
+  column.water_expansion = {parameters.phases.water_expansion_law, phases.water_expansion};
+  column.porosity = static_cast<Real>(material.porosity);
+  column.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
+  column.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
+  column.residual_stress = static_cast<Real>(pressure.residual_stress);
+  column.at_frozen =
+      pressure.frozen_rows == config::FrozenRows::vented ? physics::EndOfWater::vented : physics::EndOfWater::sealed;
+  column.at_top = pressure.column_top;
+  column.water_to_steam_viscosity = static_cast<Real>(pressure.water_to_steam_viscosity);
+  column.latent = parameters.heat.latent;
+  column.conduction = parameters.heat.conduction;
+  column.seepage = pressure.seepage;
+  column.pressurization = pressure.enabled && pressure.thermal_pressurization;
+  column.steam = parameters.heat.steam;
+  column.ground_conductivity = phases.rock_conductivity;
+  column.ground_capacity = phases.rock_density * phases.rock_heat_capacity;
+  column.ground_cell = static_cast<Real>(parameters.band.thickness.smallest()) / physics::ColumnCells::band;
+  return column;
+}
+
+}  // namespace
+
+template <int Dim>
+band::ColumnsModel make_columns_model(const config::Case& parameters, const Model<Dim>& model,
+                                      const ColumnMaterial& material) {
+  const config::Band& band = parameters.band;
+  band::ColumnsModel columns;
+  columns.column = model.band.with_heat_content([&](const auto& content) -> band::AnyColumnModel {
+    return column_model(parameters, model.motion.phases, content.curve, material);
+  });
+  columns.body_temperature = static_cast<Real>(material.temperature);
+  columns.ground_temperature =
+      static_cast<Real>(std::isnan(band.ground_temperature) ? material.temperature : band.ground_temperature);
+  columns.density = model.band.with_heat_content([&](const auto& content) {
+    return physics::mixture_density(model.motion.phases, static_cast<Real>(material.porosity),
+                                    content.curve.saturation(columns.body_temperature));
+  });
+  columns.load_time = static_cast<Real>(band.load_time);
+  columns.growth = band.growth;
+  columns.grain_size = static_cast<Real>(band.grain_size);
+  columns.inertial_number = static_cast<Real>(band.inertial_number);
+  columns.growth_per_slip = static_cast<Real>(band.growth_per_slip);
+  columns.mixing_slip = static_cast<Real>(band.mixing_slip);
+  columns.rock_density = model.motion.phases.rock_density;
+  columns.largest_thickness = static_cast<Real>(material.depth);
+  return columns;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim) \
+  template band::ColumnsModel make_columns_model<Dim>(const config::Case&, const Model<Dim>&, const ColumnMaterial&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,53 @@
+// Body specified by map files: it rests on the ground with the mapped thickness.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "base/raster_sampling.hpp"
+#include "config/site.hpp"
+#include "sim/setup/seed.hpp"
+#include "terrain/surface.hpp"
+
+namespace thawslide::sim {
+
+// Value of the nearest raster point that has one; throws UserError if none of the adjacent points has one.
+double nearest_value(const Raster& raster, double x, double y);
+
+class ReleaseBody {
+ public:
+  using Releases = std::map<std::string, config::Release>;
+
+  // releases: of all bodies, including that of `name`. origin: of the ground's coordinates [m]. Releases and ground
+  // must outlive the body.
+  ReleaseBody(const Releases& releases, const std::string& name, const terrain::Surface<3>& ground,
+              const Vector<double, 3>& origin)
+      : releases_(&releases), release_(&releases.at(name)), ground_(&ground), origin_(origin) {}
+
+  [[nodiscard]] double volume() const { return volume_of(release_->thickness); }
+  // Ground elevation below a point [m], and membership of a point in the body.
+  [[nodiscard]] double bottom(double x, double y) const;
+  [[nodiscard]] bool contains(const Vector<double, 3>& point) const;
+
+  // Seeds columns of particles, `spacing` [m] apart on the lattice of `corner`. Each column has the number of particles
+  // that best fits its thickness, of equal height from the ground to the top and of equal volume. The lowest particles
+  // therefore rest on the ground everywhere. Columns thinner than a tenth of the spacing, and columns whose centre
+  // belongs to another body, get no particles.
+  void seed(const Vector<double, 3>& corner, double spacing, int body, std::vector<Seed<3>>& seeds) const;
+
+ private:
+  // Vertical thickness [m], in the body's own part.
+  [[nodiscard]] const Raster& thickness() const {
+    return release_->assigned_thickness.empty() ? release_->thickness : release_->assigned_thickness;
+  }
+  [[nodiscard]] double mean_thickness(double x, double y, double width) const;
+  // True if the place belongs to no other body, as defined in config::Release.
+  [[nodiscard]] bool owns(double x, double y) const;
+
+  const Releases* releases_;
+  const config::Release* release_;
+  const terrain::Surface<3>* ground_;
+  Vector<double, 3> origin_;
+};
+
+}  // namespace thawslide::sim

@@ -1,0 +1,35 @@
+// Terrain functions for the columns of the slide (band/flow_depth.hpp). They refer to the model, which must outlive
+// them.
+#pragma once
+
+#include <algorithm>
+
+#include "band/at_columns.hpp"
+#include "sim/setup/model.hpp"
+
+namespace thawslide::sim {
+
+// Empty without ground. cell: mesh size [m].
+template <int Dim>
+band::OfPosition<Dim> slope_cosine_of(const Model<Dim>& model, double cell) {
+  if (!model.ground) {
+    return {};
+  }
+  return [&model, cell](const Vector<Real, Dim - 1>& point) {
+    return static_cast<Real>(model.ground->slope_cosine(point.template cast<double>(), cell));
+  };
+}
+
+template <int Dim>
+band::OfPosition<Dim> normal_gravity_of(const Model<Dim>& model, double cell) {
+  return [&model, cell](const Vector<Real, Dim - 1>& point) {
+    const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
+    if (!model.ground) {
+      return static_cast<Real>(-gravity[Dim - 1]);
+    }
+    const auto normal = model.ground->normal_below(point.template cast<double>(), cell);
+    return static_cast<Real>(std::max(0.0, gravity.dot(normal)) * -normal[Dim - 1]);
+  };
+}
+
+}  // namespace thawslide::sim

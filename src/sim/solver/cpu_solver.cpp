@@ -1,0 +1,300 @@
+#include "sim/solver/cpu_solver.hpp"
+
+#include <cmath>
+
+#include "band/averages.hpp"
+#include "band/heat.hpp"
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "mpm/sum_over_particles.hpp"
+#include "mpm/velocity_filter.hpp"
+#include "sim/setup/release_stages.hpp"
+#include "sim/setup/terrain_at_columns.hpp"
+#include "sim/solver/filter_times.hpp"
+#include "sim/solver/front.hpp"
+#include "sim/solver/time_step.hpp"
+#include "terrain/band_marks.hpp"
+#include "terrain/map_back.hpp"
+#include "terrain/near_ground.hpp"
+
+namespace thawslide::sim {
+
+// Discrete step, Section 2.3 of the paper; all stages use the shape functions at the initial positions of the step.
+//   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
+//   P_i, S_i, n_i: averages with the linear shape functions; with band columns, only if a node presses on ground
+//   without a column                                                                         Eq. 21
+//   f_i of bodies that do not share nodes: including the forces between them                 mpm/body_contact.hpp
+//   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
+//   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
+//   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
+//   heat content from conduction, advection and the friction heat of the contact nodes         Eqs. 9, 18-20
+//   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
+template <int Dim>
+StepSums<Dim> CpuSolver<Dim>::step(Real dt, const terrain::StrengthLaw* strength) {
+  const Model<Dim>& model = setup_.model;
+  StepSums<Dim> sums;
+  stopwatch_.time("find_cells", [&] { find_cells(); });
+  stopwatch_.time("average_band_on_grid", [&] {
+    sums.band_rescale = model.band.rescaling_mixes ? rescale_band() : Real(0);  // changes temperatures
+    average_band_on_grid(model.contact.reads_mass || strength != nullptr);
+  });
+  if (setup_.parameters.mechanics.enabled) {
+    Real force_of_walls = 0;
+    stopwatch_.time("momentum_to_grid", [&] { force_of_walls = momentum_to_grid(); });
+    stopwatch_.time("resolve_contact", [&] {
+      sums.contact = resolve_contact(dt, strength);
+      sums.contact.force[0] -= force_of_walls;  // the walls are part of the ground
+    });
+    stopwatch_.time("move_particles", [&] { move_particles(dt, sums); });
+    stopwatch_.time("update_stress_and_porosity", [&] {
+      sums.deformed = mpm::update_stress_and_porosity(slide_.grid, slide_.particles, model.motion, dt, nodes_);
+    });
+  }
+  stopwatch_.time("conduct_heat", [&] {
+    sums.band_rescale = model.band.rescaling_mixes ? sums.band_rescale : rescale_band();
+    sums.heat = conduct_heat(dt);
+  });
+  stopwatch_.time("drain_pore_pressure", [&] {
+    const band::WaterLoss loss = drain_pore_pressure(dt);
+    sums.drained = loss.drained;
+    sums.vented = loss.vented;
+  });
+  stopwatch_.time("update_positions", [&] { sums.invalid = update_positions(); });
+  return sums;
+}
+
+template <int Dim>
+void CpuSolver<Dim>::find_cells() {
+  slide_.locate(setup_.model);
+  if (setup_.model.between_bodies.has_held) {
+    slide_.grid.set_layers(layers_of_bodies(setup_.model, clock_.time));
+  }
+  slide_.update_grid(setup_.model, slide_.sorting_interval);
+  if (slide_.grid.blocks_changed() && !setup_.parameters.mechanics.enabled) {
+    terrain::start_contact(slide_.grid, ground(), nodes_);  // there is no contact, and no step resolves it
+  }
+}
+
+template <int Dim>
+void CpuSolver<Dim>::average_band_on_grid(bool reads_mass) {
+  const Model<Dim>& model = setup_.model;
+  if (!base_.columns && ((model.ground && reads_mass) || model.band.heat || model.band.pressure)) {
+    band::average_on_grid(slide_.grid, model.band, slide_.particles, nodes_);
+  }
+}
+
+template <int Dim>
+Real CpuSolver<Dim>::momentum_to_grid() {
+  return mpm::momentum_to_grid(slide_.grid, slide_.particles, setup_.model.motion, nodes_);
+}
+
+// Only nodes out of reach of band columns need the state of particles, and only if a law reads it.
+template <int Dim>
+void CpuSolver<Dim>::press_on_ground(Real dt, bool reads_mass) {
+  const Model<Dim>& model = setup_.model;
+  if (!model.ground) {
+    return;
+  }
+  const auto to_grid =
+      base_.columns || !reads_mass ? &terrain::clearance_to_grid<Dim> : &terrain::near_ground_to_grid<Dim>;
+  to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
+  if (base_.columns) {
+    base_.columns->to_nodes(slide_.grid, nodes_);
+  }
+  terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, static_cast<Real>(clock_.time),
+                           dt, nodes_);
+  if (base_.columns && reads_mass && terrain::loads_bare_ground(slide_.grid, nodes_)) {
+    band::average_on_grid(slide_.grid, model.band, slide_.particles, nodes_);
+    terrain::near_ground_to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
+  }
+}
+
+template <int Dim>
+terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(Real dt, const terrain::StrengthLaw* strength) {
+  const Model<Dim>& model = setup_.model;
+  if (model.between_bodies.any()) {
+    body_contact_.add_forces(slide_.grid, slide_.particles, model.between_bodies, model.motion.sizes,
+                             model.contact.mass_damping, dt, nodes_);
+  }
+  press_on_ground(dt, model.contact.reads_mass || strength != nullptr);
+  terrain::Bed<Dim>* bed = base_.bed_in_reach(model);
+  if (bed != nullptr) {
+    bed->cover(slide_.grid, slide_.ground, model.motion.sizes, slide_.particles);
+  }
+  const terrain::ContactWork<Dim> work =
+      terrain::resolve_contact(slide_.grid, ground(), model.constraints, model.contact, static_cast<Real>(clock_.time),
+                               dt, nodes_, bed, strength);
+  if (bed != nullptr) {
+    bed->collect(slide_.grid, nodes_, dt);
+  }
+  if (model.ground) {
+    terrain::mark_band_and_slip(slide_.grid, slide_.ground, dt, nodes_, slide_.particles);
+  }
+  update_columns(setup_, slide_.grid, slide_.ground, clock_.time, dt, nodes_, base_);
+  return work;
+}
+
+template <int Dim>
+void CpuSolver<Dim>::move_particles(Real dt, StepSums<Dim>& sums) {
+  const Model<Dim>& model = setup_.model;
+  sums.particle_kinetic = mpm::move_particles(slide_.grid, slide_.particles, model.motion, dt, nodes_);
+  if (model.motion.filter_order > 0 && filters_in_step(setup_.parameters, clock_.time, static_cast<double>(dt))) {
+    sums.filtered = mpm::filter_velocities(slide_.grid, slide_.particles, model.motion, nodes_);
+  }
+  sums.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
+                                                    model.motion.gravity, static_cast<Real>(clock_.time), dt, nodes_);
+  if (model.between_bodies.any()) {
+    sums.between_bodies = body_contact_.constrain_mapped_back(model.motion.gravity, dt, nodes_);
+  }
+}
+
+template <int Dim>
+Real CpuSolver<Dim>::rescale_band() {
+  const Model<Dim>& model = setup_.model;
+  const double thickness = setup_.band_thickness(clock_.time);
+  const bool depends_on_position = model.band.region != band::BandRegion::all || model.ground;
+  if (model.contact.band_columns || !(depends_on_position || thickness != band_thickness_)) {
+    return Real(0);
+  }
+  band_thickness_ = thickness;
+  return band::rescale_band(slide_.grid, model.band, static_cast<Real>(thickness), slide_.particles);
+}
+
+template <int Dim>
+band::HeatGain CpuSolver<Dim>::conduct_heat(Real dt) {
+  const band::BandModel<Dim>& model = setup_.model.band;
+  if (base_.columns) {  // the body's temperature is constant
+    return {};
+  }
+  band::average_seeping_water(slide_.grid, model, slide_.particles, nodes_);
+  return model.heat ? band::conduct_heat(slide_.grid, model, dt, clock_.step_number == 0, nodes_, slide_.particles)
+                    : band::HeatGain{};
+}
+
+template <int Dim>
+band::WaterLoss CpuSolver<Dim>::drain_pore_pressure(Real dt) {
+  if (!setup_.model.band.pressure || base_.columns) {
+    return {};
+  }
+  update_flow_depth();
+  update_normal_load();
+  return band::drain_pore_pressure(slide_.grid, setup_.model.band, flow_depth_, dt, nodes_, slide_.particles);
+}
+
+template <int Dim>
+mpm::InvalidParticle CpuSolver<Dim>::update_positions() {
+  mpm::Particles<Dim>& particles = slide_.particles;
+  if (setup_.parameters.mechanics.enabled) {
+    // Particles that will be removed may leave the domain before the end of the step.
+    const Real margin = setup_.parameters.grid.leaving == config::Policy::remove ? slide_.grid.cell() : Real(0);
+    const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
+    slide_.are_located = false;
+    return mpm::update_positions(particles, Vector<Real, Dim>(-beyond),
+                                 Vector<Real, Dim>(setup_.model.constraints.extent + beyond));
+  }
+  mpm::InvalidParticle invalid;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (!std::isfinite(particles.temperature(p)) || !std::isfinite(particles.pore_pressure(p))) {
+      invalid.record(particles.id(p), mpm::Fault::state_not_finite);
+    }
+  }
+  return invalid;
+}
+
+template <int Dim>
+void CpuSolver<Dim>::begin() {
+  const Model<Dim>& model = setup_.model;
+  find_cells();
+  if (model.ground) {
+    terrain::set_contact_offset(model.motion.sizes, slide_.grid.cell(), slide_.particles);
+  }
+  mark_band();
+  if (!model.contact.band_columns) {
+    band::rescale_band(slide_.grid, model.band, static_cast<Real>(setup_.band_thickness(clock_.time)),
+                       slide_.particles);
+  }
+  update_flow_depth();
+  flow_depth_.depth_to_particles(slide_.grid, slide_.particles);
+  update_normal_load();
+  band::set_pore_pressure(model.band, slide_.particles);
+}
+
+template <int Dim>
+void CpuSolver<Dim>::join(std::size_t first) {
+  const Model<Dim>& model = setup_.model;
+  slide_.are_located = false;
+  slide_.locate(model);
+  slide_.update_grid(model, 0);
+  if (model.band.pressure && model.band.needs_normal_load()) {
+    update_flow_depth();
+    update_normal_load(first);
+  }
+  band::set_pore_pressure(model.band, slide_.particles, first);
+  if (model.motion.effective_stress) {
+    mpm::split_total_stress(slide_.particles, first);
+  }
+  if (model.ground) {
+    terrain::set_contact_offset(model.motion.sizes, slide_.grid.cell(), slide_.particles, first);
+  }
+  if (!model.contact.band_columns) {
+    band::rescale_band(slide_.grid, model.band, static_cast<Real>(setup_.band_thickness(clock_.time)), slide_.particles,
+                       first);
+  }
+}
+
+// Marks the particles in the band before anything has moved.
+template <int Dim>
+void CpuSolver<Dim>::mark_band() {
+  terrain::start_contact(slide_.grid, ground(), nodes_);
+  if (setup_.model.ground) {
+    terrain::mark_band_and_slip(slide_.grid, slide_.ground, Real(0), nodes_, slide_.particles);
+  }
+}
+
+template <int Dim>
+void CpuSolver<Dim>::update_flow_depth() {
+  flow_depth_.update(slide_.grid, setup_.model.band, slope_cosine_of(setup_.model, setup_.cell()), slide_.particles);
+}
+
+template <int Dim>
+void CpuSolver<Dim>::update_normal_load(std::size_t first) {
+  const band::BandModel<Dim>& model = setup_.model.band;
+  if (model.pressure && model.needs_normal_load()) {
+    flow_depth_.load_to_particles(slide_.grid, normal_gravity_of(setup_.model, setup_.cell()), slide_.particles, first);
+  }
+}
+
+template <int Dim>
+band::StepExtremes CpuSolver<Dim>::extremes() const {
+  slide_.locate(setup_.model);
+  return extremes_of(setup_.model, slide_.particles);
+}
+
+template <int Dim>
+mpm::MonitorSums CpuSolver<Dim>::monitor(const mpm::MonitorKernel<Dim>& kernel) const {
+  return mpm::sum_over_particles<mpm::MonitorSums>(slide_.grid,
+                                                   [&](std::uint32_t p) { return kernel(slide_.particles, p); });
+}
+
+template <int Dim>
+BodySums<Dim> CpuSolver<Dim>::sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const {
+  return mpm::sum_over_particles<BodySums<Dim>>(slide_.grid,
+                                                [&](std::uint32_t p) { return of_particle(slide_.particles, p); });
+}
+
+template <int Dim>
+mpm::PathSample CpuSolver<Dim>::front(const mpm::Transformation<Dim>& path, double mass) const {
+  const std::vector<std::uint32_t>& order = slide_.grid.order();
+  std::vector<MassOnPath> masses(order.size());
+  parallel_for(order.size(), [&](std::size_t rank) {
+    const mpm::PathSample one = path.of(slide_.particles, order[rank]);
+    masses[rank] = {one.along, one.mass, rank};
+  });
+  return path.of(slide_.particles, order[front_of(masses, mass).rank]);
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim) template class CpuSolver<Dim>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,79 @@
+// Time step on the CPU, by lanes of vector registers and threads.
+#pragma once
+
+#include <memory>
+
+#include "band/flow_depth.hpp"
+#include "band/pore_pressure.hpp"
+#include "base/stopwatch.hpp"
+#include "mpm/body_contact.hpp"
+#include "sim/solver/base.hpp"
+#include "sim/solver/clock.hpp"
+#include "sim/solver/slide.hpp"
+#include "sim/solver/solver.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim>
+class CpuSolver final : public Solver<Dim> {
+ public:
+  // All arguments must outlive the solver, which adds the time of its stages to the stopwatch.
+  CpuSolver(const Setup<Dim>& setup, Slide<Dim>& slide, Base<Dim>& base, const Clock& clock, Stopwatch& stopwatch)
+      : setup_(setup), slide_(slide), base_(base), clock_(clock), stopwatch_(stopwatch) {}
+
+  // Initializes everything of the particles that follows from their positions and stress at t = 0.
+  void begin();
+  // The same for particles that join at memory index `first` and above.
+  void join(std::size_t first);
+  // Updates the grid, its layers and the ground at its nodes to the particles.
+  void find_cells();
+
+  // Nodes of the last step.
+  [[nodiscard]] const mpm::Nodes<Dim>& nodes() const { return nodes_; }
+
+  void start() override {}
+  StepSums<Dim> step(Real dt, const terrain::StrengthLaw* strength) override;
+  [[nodiscard]] bool none_has_left() const override { return false; }
+  [[nodiscard]] band::StepExtremes extremes() const override;
+  [[nodiscard]] mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) const override;
+  [[nodiscard]] BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const override;
+  [[nodiscard]] mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const override;
+  [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& /*cells*/) const override { return nullptr; }
+  void copy_particles_back() const override {}
+  void sync_to_host() const override {}
+  void release() override {}
+
+ private:
+  // The stages of a step, in order. Each returns its sums.
+  void average_band_on_grid(bool reads_mass);
+  [[nodiscard]] Real momentum_to_grid();
+  void press_on_ground(Real dt, bool reads_mass);
+  [[nodiscard]] terrain::ContactWork<Dim> resolve_contact(Real dt, const terrain::StrengthLaw* strength);
+  void move_particles(Real dt, StepSums<Dim>& sums);
+  [[nodiscard]] band::HeatGain conduct_heat(Real dt);
+  [[nodiscard]] band::WaterLoss drain_pore_pressure(Real dt);
+  [[nodiscard]] mpm::InvalidParticle update_positions();
+
+  void mark_band();
+  // Returns the heat added [J].
+  [[nodiscard]] Real rescale_band();
+  void update_flow_depth();
+  // Updates the load on particles at memory index `first` and above: weight of the column above, normal to the ground.
+  void update_normal_load(std::size_t first = 0);
+  // Null without terrain.
+  [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const {
+    return setup_.model.ground ? &slide_.ground : nullptr;
+  }
+
+  const Setup<Dim>& setup_;
+  Slide<Dim>& slide_;
+  Base<Dim>& base_;
+  const Clock& clock_;
+  Stopwatch& stopwatch_;
+  mpm::Nodes<Dim> nodes_;
+  band::FlowDepth<Dim> flow_depth_;
+  mpm::BodyContact<Dim> body_contact_;
+  double band_thickness_ = -1.0;  // of the last scaling [m]
+};
+
+}  // namespace thawslide::sim

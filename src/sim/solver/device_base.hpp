@@ -1,0 +1,17 @@
+// Base of a slide on a device: band columns and erodible bed are computed on the CPU, from nodal values that the device
+// transfers.
+#pragma once
+
+#include "device/step_model.hpp"
+#include "sim/solver/base.hpp"
+#include "sim/solver/clock.hpp"
+
+namespace thawslide::sim {
+
+// Callbacks; empty without band columns or bed. All arguments must outlive them. dt: of the step [s].
+template <int Dim>
+device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const Real& dt, Base<Dim>& base);
+template <int Dim>
+device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const Real& dt, Base<Dim>& base);
+
+}  // namespace thawslide::sim

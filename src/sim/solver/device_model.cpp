@@ -1,0 +1,112 @@
+#include "sim/solver/device_model.hpp"
+
+#include "base/instances.hpp"
+#include "sim/setup/terrain_at_columns.hpp"
+#include "sim/solver/filter_times.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim>
+std::string not_on_devices(const Model<Dim>& model) {
+  const struct {
+    bool is_requested;
+    const char* what;
+  } options[] = {
+      {model.motion.width.varies(), "a case.width that varies along x"},
+      {!model.constraints.frames.empty(), "a [frame]"},
+      {model.between_bodies.has_held, "a body.NAME.release_time above 0"},
+      {model.splits_stretched, "mechanics.split_stretched = true"},
+      {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
+      {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
+      {model.band.current_masses, "heat.masses = \"current\""},
+  };
+  for (const auto& option : options) {
+    if (option.is_requested) {
+      return option.what;
+    }
+  }
+  return "";
+}
+
+template <int Dim>
+device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts) {
+  device::StepModel<Dim> device;
+  device.cell = static_cast<Real>(parameters.grid.cell);
+  device.mapping = mapping_of(model);
+  if (model.ground) {
+    device.columns = model.ground->columns();
+  }
+  for (std::size_t body = 0; body < model.body_names.size(); ++body) {
+    device.half_sizes.push_back(model.motion.sizes.half(body));
+  }
+  device.shape = model.motion.shape;
+  device.affine = model.motion.transfer == mpm::TransferKind::apic;
+  device.moves = parameters.mechanics.enabled;
+  device.sides = model.motion.sides;
+  device.gravity = model.motion.gravity;
+  device.pic_fraction = model.motion.pic_fraction;
+  device.filter_order = model.motion.filter_order;
+  device.filters_in_step = [parameters](Real time, Real dt) {
+    return filters_in_step(parameters, static_cast<double>(time), static_cast<double>(dt));
+  };
+  device.mass_damping = model.contact.mass_damping;
+  device.materials = model.motion.materials;
+  device.free_gaps = model.free_gaps;
+  device.phases = model.motion.phases;
+  device.effective_stress = model.motion.effective_stress;
+  device.lubrication = model.motion.lubrication;
+  device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
+  // Particles that will be removed may leave the domain before the end of the step.
+  const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
+  const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
+  device.lower = -beyond;
+  device.upper = model.constraints.extent + beyond;
+  device.finds_extremes = parameters.time.stepping == config::Stepping::adaptive;
+  device.counts_escaped =
+      parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
+  device.base = model.contact.law;
+  device.base_is_fixed = model.contact.base_is_fixed;
+  device.pore_pressure = model.contact.pore_pressure;
+  device.distance_check = model.contact.distance_check;
+  const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
+  device.pressure_changes = model.band.pressure && !has_columns;
+  device.heat = model.band.heat && !has_columns;
+  device.starts = starts;
+  device.heat_content = model.band.heat_content;
+  device.heat_faces = model.band.at_faces;
+  device.band = static_cast<const band::BandPhysics&>(model.band);
+  device.rescales_band = !has_columns;
+  device.hydraulic_conductivity = model.band.hydraulic_conductivity;
+  device.band_thickness = [thickness = parameters.band.thickness](Real time) {
+    return static_cast<Real>(thickness.at(static_cast<double>(time)));
+  };
+  device.scales_all = model.band.region == band::BandRegion::all;
+  return device;
+}
+
+template <int Dim>
+device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double cell) {
+  device::HostCallbacks<Dim> callbacks;
+  if (model.ground) {
+    callbacks.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
+      terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, nodes);
+      return terrain::is_ground_known<Dim>(*model.ground, block, cell);
+    };
+    callbacks.column_heights = [&model] { return model.ground->column_heights(); };
+  }
+  if (model.band.normal_thickness) {
+    callbacks.slope_cosine = slope_cosine_of(model, cell);
+  }
+  callbacks.normal_gravity = normal_gravity_of(model, cell);
+  return callbacks;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
+  template std::string not_on_devices<Dim>(const Model<Dim>&);                                        \
+  template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, bool); \
+  template device::HostCallbacks<Dim> terrain_for_device<Dim>(const Model<Dim>&, double);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

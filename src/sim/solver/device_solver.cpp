@@ -1,0 +1,197 @@
+#include "sim/solver/device_solver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "device/solver.hpp"
+#include "sim/solver/device_base.hpp"
+#include "sim/solver/device_model.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// True if a position is outside the domain or the known terrain.
+template <int Dim>
+bool any_has_left(const Model<Dim>& model, const std::vector<Vector<Real, Dim>>& positions) {
+  const Vector<Real, Dim>& extent = model.constraints.extent;
+  const auto left = [&](const Vector<Real, Dim>& position) {
+    return (position.array() < Real(0)).any() || (position.array() > extent.array()).any() ||
+           (model.ground && !model.ground->is_known(position.template head<Dim - 1>().template cast<double>()));
+  };
+  constexpr std::size_t of_a_task = 1024;
+  return parallel_sum<std::size_t>(
+             (positions.size() + of_a_task - 1) / of_a_task, [&](std::size_t task, std::size_t& sum) {
+               for (std::size_t k = task * of_a_task; k < std::min(positions.size(), (task + 1) * of_a_task); ++k) {
+                 sum += left(positions[k]) ? 1 : 0;
+               }
+             }) > 0;
+}
+
+}  // namespace
+
+template <int Dim>
+struct DeviceSolver<Dim>::Session {
+  std::unique_ptr<device::Solver<Dim>> solver;  // null while the next step begins with the particles of the host
+  StepSums<Dim> sums;                           // of the last step
+  device::MapSample map_sample;                 // of the last step
+  Real dt = 0;                                  // of the step [s]
+  bool host_particles_valid = true, host_grid_valid = true, has_failed = false;
+};
+
+template <int Dim>
+DeviceSolver<Dim>::DeviceSolver(const Setup<Dim>& setup, Slide<Dim>& slide, Base<Dim>& base, const Clock& clock,
+                                const Solver<Dim>& host, std::string name, device::SolverFactory<Dim> make)
+    : setup_(setup),
+      slide_(slide),
+      base_(base),
+      clock_(clock),
+      host_(host),
+      name_(std::move(name)),
+      make_(std::move(make)),
+      session_(std::make_unique<Session>()) {}
+
+template <int Dim>
+DeviceSolver<Dim>::~DeviceSolver() = default;
+
+template <int Dim>
+bool DeviceSolver<Dim>::has_failed() const {
+  return session_->has_failed;
+}
+
+template <int Dim>
+void DeviceSolver<Dim>::call(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const device::Failure& error) {
+    Session& session = *session_;
+    session.host_particles_valid = session.host_grid_valid = session.has_failed = true;
+    session.solver.reset();
+    throw DeviceError(fmt::format("{} failed at step {}: {}", name_, clock_.step_number, error.what()));
+  }
+}
+
+template <int Dim>
+void DeviceSolver<Dim>::start() {
+  if (session_->solver) {
+    return;
+  }
+  call([&] {
+    device::HostCallbacks<Dim> callbacks = terrain_for_device(setup_.model, setup_.cell());
+    callbacks.columns = columns_for_device(setup_, clock_, session_->dt, base_);
+    callbacks.bed = bed_for_device(setup_, session_->dt, base_);
+    session_->solver = make_(device_model_of(setup_.parameters, setup_.model, clock_.step_number == 0),
+                             mpm::view_of(slide_.particles), slide_.particles.size(), std::move(callbacks));
+    session_->sums.extremes = session_->solver->extremes();
+  });
+}
+
+template <int Dim>
+StepSums<Dim> DeviceSolver<Dim>::step(Real dt, const terrain::StrengthLaw* strength) {
+  THAWSLIDE_ASSERT(!has_failed(), "a step after {} has failed", name_);
+  THAWSLIDE_ASSERT(strength == nullptr, "a law of the caller on {}", name_);
+  start();
+  Session& session = *session_;
+  session.dt = dt;
+  call([&] {
+    if (slide_.sorting_interval > 0 && clock_.step_number % slide_.sorting_interval == 0) {
+      session.solver->sort_in_memory();
+    }
+    session.host_particles_valid = session.host_grid_valid = false;
+    session.sums = session.solver->step(static_cast<Real>(clock_.time), dt);
+  });
+  return session.sums;
+}
+
+template <int Dim>
+bool DeviceSolver<Dim>::none_has_left() const {
+  if (!session_->solver) {
+    return false;
+  }
+  std::vector<Vector<Real, Dim>> escapes;
+  if (session_->sums.escapes > 0) {
+    call([&] { escapes = session_->solver->escaped_positions(); });
+  }
+  return !any_has_left(setup_.model, escapes);
+}
+
+template <int Dim>
+band::StepExtremes DeviceSolver<Dim>::extremes() const {
+  if (session_->solver && setup_.is_adaptive()) {
+    return session_->sums.extremes;
+  }
+  copy_particles_back();
+  return host_.extremes();
+}
+
+template <int Dim>
+mpm::MonitorSums DeviceSolver<Dim>::monitor(const mpm::MonitorKernel<Dim>& kernel) const {
+  if (!session_->solver) {
+    return host_.monitor(kernel);
+  }
+  mpm::MonitorSums sums;
+  call([&] { sums = session_->solver->monitor(kernel); });
+  return sums;
+}
+
+template <int Dim>
+BodySums<Dim> DeviceSolver<Dim>::sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const {
+  if (!session_->solver) {
+    return host_.sum_over_body(of_particle);
+  }
+  BodySums<Dim> sums;
+  call([&] { sums = session_->solver->sum_over_body(of_particle); });
+  return sums;
+}
+
+template <int Dim>
+mpm::PathSample DeviceSolver<Dim>::front(const mpm::Transformation<Dim>& path, double mass) const {
+  if (!session_->solver) {
+    return host_.front(path, mass);
+  }
+  mpm::PathSample found;
+  call([&] { found = session_->solver->front(path, mass); });
+  return found;
+}
+
+template <int Dim>
+const device::MapSample* DeviceSolver<Dim>::sample_map(const mpm::MapCells& cells) const {
+  if (!session_->solver) {
+    return nullptr;
+  }
+  call([&] { session_->solver->sample_map(cells, session_->map_sample); });
+  return &session_->map_sample;
+}
+
+template <int Dim>
+void DeviceSolver<Dim>::copy_particles_back() const {
+  if (!session_->host_particles_valid) {
+    call([&] { session_->solver->copy_to(mpm::view_of(slide_.particles)); });
+    session_->host_particles_valid = true;
+  }
+}
+
+// Rebuilds the grid from the particles' positions: sums in its order then do not depend on the time of synchronization.
+template <int Dim>
+void DeviceSolver<Dim>::sync_to_host() const {
+  copy_particles_back();
+  if (!session_->host_grid_valid) {
+    slide_.update_grid(setup_.model, 0);
+    session_->host_grid_valid = true;
+  }
+}
+
+template <int Dim>
+void DeviceSolver<Dim>::release() {
+  sync_to_host();
+  session_->solver.reset();
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim) template class DeviceSolver<Dim>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim
