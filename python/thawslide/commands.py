@@ -44,13 +44,28 @@ def forecast() -> int:
     return run_command("thawslide forecast", "thawslide.forecasts.command")
 
 
+def terrain() -> int:
+    """Run `thawslide terrain`."""
+    return run_command("thawslide terrain", "thawslide.handover.command", "terrain")
+
+
+def export() -> int:
+    """Run `thawslide export`."""
+    return run_command("thawslide export", "thawslide.handover.command", "export")
+
+
+def assets() -> int:
+    """Run `thawslide assets`."""
+    return run_command("thawslide assets", "thawslide.handover.command", "assets")
+
+
 def pair() -> int:
     """Run `thawslide run --pair`."""
     return run_command("thawslide run --pair", "thawslide.pairs.command")
 
 
-def run_command(name: str, module: str) -> int:
-    """Import a module and run its function `main`; return the exit code, 1 for an internal error."""
+def run_command(name: str, module: str, function: str = "main") -> int:
+    """Import a module and run a function of it; return the exit code, 1 for an internal error."""
     try:
         import_module("matplotlib")
     except Exception as error:
@@ -61,7 +76,7 @@ def run_command(name: str, module: str) -> int:
         )
         return _USER_MISTAKE
     try:
-        return int(import_module(module).main())
+        return int(getattr(import_module(module), function)())
     except Exception as error:
         code, text = _explained(error)
     except KeyboardInterrupt:

@@ -90,6 +90,7 @@ def write_maps(folder: Path, end: float) -> None:
         ("max_speed", SPEED * np.nan_to_num(touched), "m/s"),
         ("arrival_time", arrival, "s"),
         ("max_pressure", 1900.0 * SPEED**2 * np.nan_to_num(touched), "Pa"),
+        ("max_pressure_time", arrival, "s"),
         ("max_momentum_flux", THICKNESS * SPEED**2 * np.nan_to_num(touched), "m3/s2"),
         ("elevation_change", slab(x, y, end) - slab(x, y, 0.0), "m"),
         ("max_basal_temperature", touched * (-5.0 + 0.02 * (x - WEST)), "C"),

@@ -1,0 +1,8 @@
+"""Results of a run for other programs: terrain after the event, moving bottom of wave codes, hydrographs, assets."""
+
+from thawslide.handover.assets import Asset, assets_hit
+from thawslide.handover.dtopo import write_dtopo
+from thawslide.handover.hydrographs import write_hydrographs
+from thawslide.handover.terrain import TerrainAfter, terrain_after
+
+__all__ = ["Asset", "TerrainAfter", "assets_hit", "terrain_after", "write_dtopo", "write_hydrographs"]
