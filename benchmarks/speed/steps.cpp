@@ -134,8 +134,8 @@ double median(std::vector<double> numbers) {
 
 // Plastic strains by id.
 template <int Dim>
-std::unordered_map<std::int64_t, Real> plastic_strains(const mpm::Particles<Dim>& particles) {
-  std::unordered_map<std::int64_t, Real> strains(particles.size());
+std::unordered_map<std::int64_t, double> plastic_strains(const mpm::Particles<Dim>& particles) {
+  std::unordered_map<std::int64_t, double> strains(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     strains.emplace(particles.id(p), particles.plastic_strain(p));
   }

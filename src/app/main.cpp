@@ -255,6 +255,9 @@ int run_program(int count, char** arguments) {
   add_python_command("sweep", "Run a case many times with varied keys");
   add_python_command("scarp", "Build a release from a failure surface below a DEM");
   add_python_command("probability", "Map probabilities and quantiles of many runs");
+  add_python_command("terrain", "Write the terrain after a run, for a next event");
+  add_python_command("export", "Write a run for wave and flood codes");
+  add_python_command("assets", "List pressure, thickness and speed at assets");
   add_python_command("score", "Compare a sweep or a run with observations");
   add_python_command("forecast", "Simulate the members of a case's sweep.toml, with a prior check and a summary");
 

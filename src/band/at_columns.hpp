@@ -11,13 +11,13 @@ namespace thawslide::band {
 
 // Function of a horizontal position [m].
 template <int Dim>
-using OfPosition = std::function<Real(const Vector<Real, Dim - 1>&)>;
+using OfPosition = std::function<double(const Vector<double, Dim - 1>&)>;
 
 template <int Dim>
 class AtColumns {
  public:
   // Value at the middle of a column; `of` must be the same in every call.
-  [[nodiscard]] Real at(std::uint64_t key, Real cell, const OfPosition<Dim>& of) {
+  [[nodiscard]] double at(std::uint64_t key, double cell, const OfPosition<Dim>& of) {
     const auto k = static_cast<std::size_t>(index_.insert(key));
     if (k == values_.size()) {
       values_.push_back(of(middle_of_column<Dim>(key, cell)));
@@ -36,7 +36,7 @@ class AtColumns {
 
  private:
   KeyIndex index_;  // column key -> index in values_
-  std::vector<Real> values_;
+  std::vector<double> values_;
 };
 
 }  // namespace thawslide::band

@@ -30,7 +30,7 @@ struct AddAverages {
 template <class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics& model, const HydraulicConductivity& hydraulic,
                                                 const Particles& particles, const At& at) {
-  return (particles.temperature.load(at) >= model.reference_temperature) & (hydraulic(particles, at) > Real(0));
+  return (particles.temperature.load(at) >= model.reference_temperature) & (hydraulic(particles, at) > 0.0);
 }
 
 // Sums of Eq. 21 over the pores that take part in seepage. Frozen pores are excluded (sealed) or count as empty
@@ -49,9 +49,9 @@ struct AddSeepingWater {
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
                                                        Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
-    const Value volume = particles.volume.load(at), zero = Real(0);
+    const Value volume = particles.volume.load(at), zero = 0.0;
     const auto seeping = seeps(model, hydraulic, particles, at);
-    const auto participates = model.frozen_rows == FrozenRows::sealed ? seeping : hydraulic(particles, at) > Real(0);
+    const auto participates = model.frozen_rows == FrozenRows::sealed ? seeping : hydraulic(particles, at) > 0.0;
     auto& water = added.template of<mpm::SeepingWater>();
     water.value[mpm::SeepingWater::volume] = select(participates, volume, zero);
     water.value[mpm::SeepingWater::pore_pressure] = select(seeping, volume * particles.pore_pressure.load(at), zero);
@@ -63,12 +63,12 @@ template <int Dim, class Averaged, class State>
 THAWSLIDE_HD bool set_nodal_state(const Averaged& averages, State& state) {
   using mpm::Averages, mpm::NodalState;
   for (std::size_t c = 0; c < mpm::record_size(NodalState::template size<Dim>); ++c) {
-    state[c] = Real(0);
+    state[c] = 0.0;
   }
-  if (!(averages[Averages::volume] > Real(0))) {
+  if (!(averages[Averages::volume] > 0.0)) {
     return false;
   }
-  const Real inverse_volume = Real(1) / averages[Averages::volume];
+  const double inverse_volume = 1.0 / averages[Averages::volume];
   state[NodalState::temperature] = averages[Averages::temperature] * inverse_volume;
   state[NodalState::pore_pressure] = averages[Averages::pore_pressure] * inverse_volume;
   return true;

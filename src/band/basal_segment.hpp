@@ -16,30 +16,30 @@ namespace thawslide::band {
 
 template <int Dim>
 struct BasalSegment {
-  using Sides = Eigen::Matrix<Real, Dim, Dim - 1>;
+  using Sides = Eigen::Matrix<double, Dim, Dim - 1>;
 
   std::int64_t id = 0;
-  Vector<Real, Dim> position;  // of its centre, on the ground [m]
-  Vector<Real, Dim> normal;    // unit vector into the ground
+  Vector<double, Dim> position;  // of its centre, on the ground [m]
+  Vector<double, Dim> normal;    // unit vector into the ground
   // Velocity of the sliding mass around the segment, along the ground, at the column's last step [m/s].
-  Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();
-  Sides sides;              // its edges along the ground [m]; one in 2D
-  Real area = 0;            // [m2]; [m2 per metre of width] in 2D
-  Real area_of_column = 0;  // reference area of the column's quantities per area [m2]
-  Real slip = 0;            // [m]
-  Real speed = 0;           // of slip [m/s]
-  Real load = 0;            // normal pressure N, averaged over time [Pa]
-  Real depth = 0;           // flow depth above, along the normal, from the load on the segment, averaged [m]
-  Real loaded_for = 0;      // averaging time of the depth so far [s]
-  Real heat = 0;            // friction heat on the whole area since the column's last step [J]
-  bool touched = false;     // has carried load before
+  Vector<double, Dim> velocity = Vector<double, Dim>::Zero();
+  Sides sides;                // its edges along the ground [m]; one in 2D
+  double area = 0;            // [m2]; [m2 per metre of width] in 2D
+  double area_of_column = 0;  // reference area of the column's quantities per area [m2]
+  double slip = 0;            // [m]
+  double speed = 0;           // of slip [m/s]
+  double load = 0;            // normal pressure N, averaged over time [Pa]
+  double depth = 0;           // flow depth above, along the normal, from the load on the segment, averaged [m]
+  double loaded_for = 0;      // averaging time of the depth so far [s]
+  double heat = 0;            // friction heat on the whole area since the column's last step [J]
+  bool touched = false;       // has carried load before
   physics::BandColumn column;
   physics::BandMeans means{};  // of the column at its last step, under the load at that time
-  Real liquid = 0;             // liquid water in the column at its last step, per area [m]
+  double liquid = 0;           // liquid water in the column at its last step, per area [m]
 };
 
 template <int Dim>
-Real area_of(const Eigen::Matrix<Real, Dim, Dim - 1>& sides) {
+double area_of(const Eigen::Matrix<double, Dim, Dim - 1>& sides) {
   if constexpr (Dim == 2) {
     return sides.norm();
   } else {
@@ -49,8 +49,8 @@ Real area_of(const Eigen::Matrix<Real, Dim, Dim - 1>& sides) {
 
 // Edges of a segment whose horizontal projection has length `size` along each axis.
 template <int Dim>
-Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, const Vector<Real, Dim - 1>& size) {
-  Eigen::Matrix<Real, Dim, Dim - 1> sides = Eigen::Matrix<Real, Dim, Dim - 1>::Zero();
+Eigen::Matrix<double, Dim, Dim - 1> sides_on(const Vector<double, Dim>& normal, const Vector<double, Dim - 1>& size) {
+  Eigen::Matrix<double, Dim, Dim - 1> sides = Eigen::Matrix<double, Dim, Dim - 1>::Zero();
   for (int a = 0; a + 1 < Dim; ++a) {
     sides(a, a) = size[a];
     sides(Dim - 1, a) = -normal[a] / normal[Dim - 1] * size[a];
@@ -60,10 +60,11 @@ Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, cons
 
 // Rotates v by the smallest rotation that takes the unit vector `from` to `to`.
 template <int Dim>
-Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& from, const Vector<Real, Dim>& to) {
-  const Vector<Real, Dim> both = from + to;
-  const Real along = Real(1) + from.dot(to);
-  return along > round_off ? Vector<Real, Dim>(v - both * (both.dot(v) / along) + Real(2) * from.dot(v) * to) : v;
+Vector<double, Dim> turned(const Vector<double, Dim>& v, const Vector<double, Dim>& from,
+                           const Vector<double, Dim>& to) {
+  const Vector<double, Dim> both = from + to;
+  const double along = 1.0 + from.dot(to);
+  return along > round_off ? Vector<double, Dim>(v - both * (both.dot(v) / along) + 2.0 * from.dot(v) * to) : v;
 }
 
 // Nodes within reach of a basal segment, with the weights of cubic B-splines, which reach two cells along each axis.
@@ -76,14 +77,14 @@ class BaseStencil {
   static constexpr int width = 4;
 
   BaseStencil() = default;  // without nodes
-  BaseStencil(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
+  BaseStencil(const mpm::SparseGrid<Dim>& grid, const Vector<double, Dim>& position) : cell_(grid.cell()) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
       const bool is_vertical = a + 1 == Dim;  // the segment is on layer 0
-      const Real in_cells = is_vertical ? Real(0) : position[static_cast<int>(a)] * grid.inverse_cell();
+      const double in_cells = is_vertical ? 0.0 : position[static_cast<int>(a)] * grid.inverse_cell();
       below[a] = static_cast<int>(std::floor(in_cells));
       weight_[a] = cubic_weights(in_cells - std::floor(in_cells));
-      first_[a] = (std::floor(in_cells) - Real(1) - in_cells) * grid.cell();
+      first_[a] = (std::floor(in_cells) - 1.0 - in_cells) * grid.cell();
     }
     T::split(below, tile, local_);
     const auto found = std::lower_bound(grid.blocks().begin(), grid.blocks().end(), T::key(tile));
@@ -105,22 +106,22 @@ class BaseStencil {
   // the node [m].
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_with_offset(const Visit& visit) const {
-    Vector<Real, Dim> from_segment;
+    Vector<double, Dim> from_segment;
     for (int row = 0; about_ != nullptr && row < mpm::power(width, Dim - 1); ++row) {
       int direction = T::stencil / 2, first = local_;
-      Real of_row = Real(1);
+      double of_row = 1.0;
       for (int a = 1, rest = row; a < Dim; ++a, rest /= width) {
         const int k = rest % width;
         direction += direction_[a][k];
         first += shift_[a][k];
         of_row *= weight_[static_cast<std::size_t>(a)][static_cast<std::size_t>(k)];
-        from_segment[a] = first_[static_cast<std::size_t>(a)] + static_cast<Real>(k) * cell_;
+        from_segment[a] = first_[static_cast<std::size_t>(a)] + static_cast<double>(k) * cell_;
       }
       for (int x = 0; x < width; ++x) {
         const std::int32_t block = about_[direction + direction_[0][x]];
-        const Real weight = weight_[0][static_cast<std::size_t>(x)] * of_row;
-        if (block != KeyIndex::absent && weight > Real(0)) {
-          from_segment[0] = first_[0] + static_cast<Real>(x) * cell_;
+        const double weight = weight_[0][static_cast<std::size_t>(x)] * of_row;
+        if (block != KeyIndex::absent && weight > 0.0) {
+          from_segment[0] = first_[0] + static_cast<double>(x) * cell_;
           visit(static_cast<std::size_t>(block), static_cast<std::size_t>(first + shift_[0][x]), weight, from_segment);
         }
       }
@@ -128,8 +129,8 @@ class BaseStencil {
   }
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
-    for_each_with_offset([&](std::size_t block, std::size_t node, Real weight,
-                             const Vector<Real, Dim>& /*from_segment*/) { visit(block, node, weight); });
+    for_each_with_offset([&](std::size_t block, std::size_t node, double weight,
+                             const Vector<double, Dim>& /*from_segment*/) { visit(block, node, weight); });
   }
   // The nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these blocks;
   // bit a of a corner is set for the second block along axis a.
@@ -160,13 +161,13 @@ class BaseStencil {
     for (int z = first[2]; z < end[2]; ++z) {
       for (int y = first[1]; y < end[1]; ++y) {
         for (int x = first[0]; x < end[0]; ++x) {
-          Real weight = weight_[0][static_cast<std::size_t>(x)] * weight_[1][static_cast<std::size_t>(y)];
+          double weight = weight_[0][static_cast<std::size_t>(x)] * weight_[1][static_cast<std::size_t>(y)];
           int node = local_ + shift_[0][x] + shift_[1][y];
           if constexpr (Dim == 3) {
             weight *= weight_[2][static_cast<std::size_t>(z)];
             node += shift_[2][z];
           }
-          if (weight > Real(0)) {
+          if (weight > 0.0) {
             visit(static_cast<std::size_t>(node), weight);
           }
         }
@@ -176,17 +177,17 @@ class BaseStencil {
 
  private:
   // Weights of the four nodes around a position at fraction t between the inner two.
-  static std::array<Real, width> cubic_weights(Real t) {
-    const Real s = Real(1) - t, sixth = Real(1) / Real(6);
-    return {sixth * s * s * s, sixth * (Real(4) - Real(3) * t * t * (Real(2) - t)),
-            sixth * (Real(4) - Real(3) * s * s * (Real(2) - s)), sixth * t * t * t};
+  static std::array<double, width> cubic_weights(double t) {
+    const double s = 1.0 - t, sixth = 1.0 / 6.0;
+    return {sixth * s * s * s, sixth * (4.0 - 3.0 * t * t * (2.0 - t)), sixth * (4.0 - 3.0 * s * s * (2.0 - s)),
+            sixth * t * t * t};
   }
 
   const std::int32_t* about_ = nullptr;  // blocks around that of the node below the segment
   int local_ = 0;                        // that node, in its tile
-  Real cell_ = 0;                        // [m]
-  std::array<Real, Dim> first_;          // from the segment to the first node along each axis [m]
-  std::array<std::array<Real, width>, Dim> weight_;
+  double cell_ = 0;                      // [m]
+  std::array<double, Dim> first_;        // from the segment to the first node along each axis [m]
+  std::array<std::array<double, width>, Dim> weight_;
   int direction_[Dim][width], shift_[Dim][width];  // along each axis: to its block, and from the node below
   int of_first_[Dim] = {};                         // nodes along each axis in the first block
 };

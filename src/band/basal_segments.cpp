@@ -50,7 +50,7 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
     const Segment& segment = segments_[p];
     const physics::BandMeans means = current_means(segment);
     shared[p] = {};
-    shared[p][BaseState::area] = Real(1);
+    shared[p][BaseState::area] = 1.0;
     shared[p][BaseState::temperature] = means.temperature;
     shared[p][BaseState::pressure_ratio] = pressure_ratio(means, segment);
     shared[p][BaseState::saturation] = means.saturation;
@@ -69,10 +69,10 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
     for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
       const std::size_t p = by_block_[n].segment;
       const Record& of_segment = shared[p];
-      const Real area = segments_[p].area;
-      stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, Real weight) {
+      const double area = segments_[p].area;
+      stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, double weight) {
         Record& record = records[node];
-        const Real fraction = weight * area;
+        const double fraction = weight * area;
         for (std::size_t c = 0; c < record.size(); ++c) {
           record[c] += fraction * of_segment[c];
         }
@@ -83,7 +83,7 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
 
 template <int Dim>
 void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                           const NormalAtNode& node_normal, Real thickness, Real dt,
+                                           const NormalAtNode& node_normal, double thickness, double dt,
                                            mpm::Nodes<Dim>& nodes) {
   THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
                    segments_.size(), stencils_.size());
@@ -99,7 +99,7 @@ void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, con
 
 template <int Dim>
 void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
-                                Real duration, const mpm::Nodes<Dim>& nodes) {
+                                double duration, const mpm::Nodes<Dim>& nodes) {
   std::vector<std::uint8_t> alone(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Nearby slide = slide_near(grid, Stencil(grid, segments_[p].position), node_normal, nodes, segments_[p]);
@@ -114,7 +114,7 @@ void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& 
     }
   }
   keep_only(alone);
-  split_long_segments(Real(longest) * grid.cell(), ground);
+  split_long_segments(double(longest) * grid.cell(), ground);
   merge_small_segments(grid, ground);
   checks_gaps_ = true;
 }
@@ -129,27 +129,27 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
                                                                    const mpm::Nodes<Dim>& nodes,
                                                                    const Segment& segment) const {
   // added to the spread of positions, in cells squared, to keep the fit regular
-  constexpr Real smallest_spread = static_cast<Real>(1e-3);
-  const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
+  constexpr double smallest_spread = 1e-3;
+  const auto along_ground = [&](const Vector<double, Dim>& v) -> Vector<double, Dim> {
     return v - v.dot(segment.normal) * segment.normal;
   };
-  Real mass = 0;
-  Vector<Real, Dim> positions = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // times mass
-  Matrix<Real, Dim> squares = Matrix<Real, Dim>::Zero(), together = Matrix<Real, Dim>::Zero();
-  stencil.for_each_with_offset([&](std::size_t b, std::size_t node, Real weight,
-                                   const Vector<Real, Dim>& from_segment) {
-    const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
-    if (!(of_node > Real(0))) {
+  double mass = 0;
+  Vector<double, Dim> positions = Vector<double, Dim>::Zero(), velocities = Vector<double, Dim>::Zero();  // times mass
+  Matrix<double, Dim> squares = Matrix<double, Dim>::Zero(), together = Matrix<double, Dim>::Zero();
+  stencil.for_each_with_offset([&](std::size_t b, std::size_t node, double weight,
+                                   const Vector<double, Dim>& from_segment) {
+    const double of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+    if (!(of_node > 0.0)) {
       return;
     }
     auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
-    const Vector<Real, Dim>* normal = node_normal(b, node);
+    const Vector<double, Dim>* normal = node_normal(b, node);
     velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
-    Vector<Real, Dim> in_space = from_segment;
+    Vector<double, Dim> in_space = from_segment;
     in_space[Dim - 1] -=
         segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
-    const Vector<Real, Dim> position = along_ground(in_space);
-    const Vector<Real, Dim> weighted = of_node * position;
+    const Vector<double, Dim> position = along_ground(in_space);
+    const Vector<double, Dim> weighted = of_node * position;
     mass += of_node;
     positions += weighted;
     velocities += of_node * velocity;
@@ -157,12 +157,13 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
     together += velocity * weighted.transpose();
   });
   Nearby result;
-  if (!(mass > Real(0))) {
+  if (!(mass > 0.0)) {
     return result;
   }
-  const Vector<Real, Dim> mean_position = positions / mass, mean_velocity = velocities / mass;
-  const Matrix<Real, Dim> spread = squares - positions * mean_position.transpose() +
-                                   mass * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
+  const Vector<double, Dim> mean_position = positions / mass, mean_velocity = velocities / mass;
+  const Matrix<double, Dim> spread =
+      squares - positions * mean_position.transpose() +
+      mass * smallest_spread * grid.cell() * grid.cell() * Matrix<double, Dim>::Identity();
   result.gradient = (together - velocities * mean_position.transpose()) * spread.inverse();
   result.velocity = mean_velocity - result.gradient * mean_position;
   result.is_present = true;
@@ -170,9 +171,9 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
 }
 
 template <int Dim>
-void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim>& nodes,
+void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, double dt, const mpm::Nodes<Dim>& nodes,
                                            Segment& segment) const {
-  Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
+  double force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
   stencil.for_each_block([&](std::size_t b, int corner) {
     if (!nodes.contact.contains(b)) {
       return;
@@ -180,10 +181,10 @@ void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, Real dt, cons
     THAWSLIDE_ASSERT(nodes.base_state.contains(b), "block {} has contact and no state of the base", b);
     const auto* contacts = &nodes.contact(b, 0);
     const auto* states = &nodes.base_state(b, 0);
-    stencil.for_each_in(corner, [&](std::size_t node, Real weight) {
+    stencil.for_each_in(corner, [&](std::size_t node, double weight) {
       const auto& contact = contacts[node];
-      if (contact[Contact::touching] > Real(0)) {
-        const Real of_seen = weight / states[node][BaseState::area];
+      if (contact[Contact::touching] > 0.0) {
+        const double of_seen = weight / states[node][BaseState::area];
         force += weight * contact[Contact::normal_force];
         area += weight * contact[Contact::area];
         slip += weight * contact[Contact::area] * contact[Contact::slip_speed];
@@ -192,10 +193,10 @@ void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, Real dt, cons
       }
     });
   });
-  if (segment.touched || area > Real(0)) {
-    update_load(area > Real(0) ? force / area : Real(0), borne, dt, segment);
+  if (segment.touched || area > 0.0) {
+    update_load(area > 0.0 ? force / area : 0.0, borne, dt, segment);
   }
-  segment.speed = area > Real(0) ? slip / area : Real(0);
+  segment.speed = area > 0.0 ? slip / area : 0.0;
   segment.slip += dt * segment.speed;
   segment.heat += dt * heat * segment.area;
 }
@@ -204,25 +205,25 @@ void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, Real dt, cons
 // distributed over segments completely. N equals this load under full contact and exceeds it if the sliding mass has
 // holes. If gravity does not press on the ground, the depth is undefined; the largest thickness is used.
 template <int Dim>
-void BasalSegments<Dim>::update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const {
-  const Real weight = model_.density * gravity_.dot(segment.normal);  // [N/m3]
-  follow_load(model_, normal_pressure, weight > Real(0) ? borne / weight : model_.largest_thickness, dt, segment);
+void BasalSegments<Dim>::update_load(double normal_pressure, double borne, double dt, Segment& segment) const {
+  const double weight = model_.density * gravity_.dot(segment.normal);  // [N/m3]
+  follow_load(model_, normal_pressure, weight > 0.0 ? borne / weight : model_.largest_thickness, dt, segment);
 }
 
 template <int Dim>
 void BasalSegments<Dim>::place_on(const Ground& ground, Segment& segment) const {
-  const Vector<Real, Dim - 1> position = segment.position.template head<Dim - 1>();
-  const Vector<Real, Dim> before = segment.normal;
+  const Vector<double, Dim - 1> position = segment.position.template head<Dim - 1>();
+  const Vector<double, Dim> before = segment.normal;
   segment.position[Dim - 1] = ground.height(position);
   segment.normal = ground.normal(position);
   for (int side = 0; side + 1 < Dim; ++side) {
-    const Vector<Real, Dim> edge = turned<Dim>(segment.sides.col(side), before, segment.normal);
+    const Vector<double, Dim> edge = turned<Dim>(segment.sides.col(side), before, segment.normal);
     segment.sides.col(side) = edge;
   }
 }
 
 template <int Dim>
-void BasalSegments<Dim>::stretch_with(const Nearby& slide, const Ground& ground, Real dt, Segment& segment) const {
+void BasalSegments<Dim>::stretch_with(const Nearby& slide, const Ground& ground, double dt, Segment& segment) const {
   segment.velocity = slide.velocity;
   segment.sides += dt * slide.gradient * segment.sides;
   place_on(ground, segment);
@@ -231,19 +232,19 @@ void BasalSegments<Dim>::stretch_with(const Nearby& slide, const Ground& ground,
 
 // Splits segments with a side longer than `most` along an axis into two, along this side.
 template <int Dim>
-void BasalSegments<Dim>::split_long_segments(Real most, const Ground& ground) {
+void BasalSegments<Dim>::split_long_segments(double most, const Ground& ground) {
   const std::size_t count = segments_.size();
   for (std::size_t p = 0; p < count; ++p) {
     for (int side = 0; side + 1 < Dim; ++side) {
       if (segments_[p].sides.col(side).cwiseAbs().maxCoeff() <= most) {
         continue;
       }
-      const Vector<Real, Dim> quarter = Real(0.25) * segments_[p].sides.col(side);
+      const Vector<double, Dim> quarter = 0.25 * segments_[p].sides.col(side);
       Segment& segment = segments_[p];
-      segment.sides.col(side) *= Real(0.5);
-      segment.area *= Real(0.5);
-      segment.area_of_column *= Real(0.5);
-      segment.heat *= Real(0.5);
+      segment.sides.col(side) *= 0.5;
+      segment.area *= 0.5;
+      segment.area_of_column *= 0.5;
+      segment.heat *= 0.5;
       Segment other = segment;
       other.id = next_id_++;
       segment.position -= quarter;
@@ -261,7 +262,7 @@ void BasalSegments<Dim>::split_long_segments(Real most, const Ground& ground) {
 // distance. The segments of one cell are visited in order, and each merges into the smallest one before it.
 template <int Dim>
 void BasalSegments<Dim>::merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground) {
-  const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
+  const double largest = largest_joined * std::pow(grid.cell(), Dim - 1);
   struct Entry {
     Lattice cell;
     std::size_t segment;
@@ -277,8 +278,8 @@ void BasalSegments<Dim>::merge_small_segments(const mpm::SparseGrid<Dim>& grid, 
     Segment &segment = segments_[entry.segment], &small = segments_[smallest];
     const bool is_first = k == 0 || entry.cell != entries[k - 1].cell;
     const auto is_near = [&] {
-      const Vector<Real, Dim> apart = small.position - segment.position;
-      return apart.template head<Dim - 1>().cwiseAbs().maxCoeff() < Real(joining_reach) * grid.cell();
+      const Vector<double, Dim> apart = small.position - segment.position;
+      return apart.template head<Dim - 1>().cwiseAbs().maxCoeff() < double(joining_reach) * grid.cell();
     };
     if (!is_first && small.area + segment.area <= ground.width(small.position.template head<Dim - 1>()) * largest &&
         is_near()) {
@@ -308,14 +309,14 @@ void BasalSegments<Dim>::keep_only(const std::vector<std::uint8_t>& left) {
 
 template <int Dim>
 void BasalSegments<Dim>::join(const Segment& other, const Ground& ground, Segment& segment) {
-  const Real fraction = segment.area / (segment.area + other.area);
-  const Vector<Real, Dim> middle = fraction * segment.position + (Real(1) - fraction) * other.position;
+  const double fraction = segment.area / (segment.area + other.area);
+  const Vector<double, Dim> middle = fraction * segment.position + (1.0 - fraction) * other.position;
   add_to_budget(merge_from(model_, other, segment));
   segment.position = middle;
   place_on(ground, segment);
-  segment.sides = sides_on<Dim>(segment.normal, Vector<Real, Dim - 1>::Ones());
+  segment.sides = sides_on<Dim>(segment.normal, Vector<double, Dim - 1>::Ones());
   segment.sides *=
-      std::pow(segment.area / ground.area_of(segment.position, segment.sides), Real(1) / static_cast<Real>(Dim - 1));
+      std::pow(segment.area / ground.area_of(segment.position, segment.sides), 1.0 / static_cast<double>(Dim - 1));
   keep_means(model_, segment);
 }
 
@@ -327,7 +328,7 @@ void BasalSegments<Dim>::remove_segment(const Segment& segment) {
 }
 
 template <int Dim>
-void BasalSegments<Dim>::step(Real thickness, Real duration) {
+void BasalSegments<Dim>::step(double thickness, double duration) {
   std::vector<physics::ColumnBudget> budgets(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     budgets[p] = step_segment(model_, thickness, duration, segments_[p]);

@@ -13,7 +13,7 @@ namespace thawslide::band {
 
 // Sums over all segments [J, kg, m2, m3]. Heat includes the friction heat that is pending until the columns' next step.
 struct ColumnSums {
-  Real area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
+  double area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
 
   ColumnSums& operator+=(const ColumnSums& part) {
     area += part.area;
@@ -29,14 +29,14 @@ struct ColumnSums {
 // Heat and water budget of all columns since the start [J], [kg]. created: with new segments; left: with removed
 // segments.
 struct ColumnLedger {
-  Real created_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0,
-       left_heat = 0;
-  Real created_water = 0, body_water = 0, vented_water = 0, steam = 0, left_water = 0;
+  double created_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0,
+         left_heat = 0;
+  double created_water = 0, body_water = 0, vented_water = 0, steam = 0, left_water = 0;
 
   template <class Visit>
   void for_each(const Visit& visit) {
-    for (Real* term : {&created_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat, &left_heat,
-                       &created_water, &body_water, &vented_water, &steam, &left_water}) {
+    for (double* term : {&created_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat, &left_heat,
+                         &created_water, &body_water, &vented_water, &steam, &left_water}) {
       visit(*term);
     }
   }
@@ -44,11 +44,11 @@ struct ColumnLedger {
 
 // Means over the base, weighted by area, and extremes.
 struct BaseMeans {
-  Real temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
-  Real max_temperature = 0,
-       max_wet_temperature = 0;  // maximum of all cells above the ground, and of those with water [C]
-  Real dry_fraction = 0;         // area fraction of the base in which a cell of the band has no water left
-  Real max_pressure_ratio = 0;   // maximum P over averaged N
+  double temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
+  double max_temperature = 0,
+         max_wet_temperature = 0;  // maximum of all cells above the ground, and of those with water [C]
+  double dry_fraction = 0;         // area fraction of the base in which a cell of the band has no water left
+  double max_pressure_ratio = 0;   // maximum P over averaged N
 };
 
 template <int Dim>
@@ -56,21 +56,21 @@ class BasalSegments {
  public:
   // Ground below a horizontal position [m].
   struct Ground {
-    std::function<Real(const Vector<Real, Dim - 1>&)> height;
-    std::function<Vector<Real, Dim>(const Vector<Real, Dim - 1>&)> normal;  // into the ground
-    std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in 3D
+    std::function<double(const Vector<double, Dim - 1>&)> height;
+    std::function<Vector<double, Dim>(const Vector<double, Dim - 1>&)> normal;  // into the ground
+    std::function<double(const Vector<double, Dim - 1>&)> width;                // of a 2D section, relative; 1 in 3D
 
     // Area of ground spanned by edges around a position [m2].
-    [[nodiscard]] Real area_of(const Vector<Real, Dim>& position,
-                               const typename BasalSegment<Dim>::Sides& sides) const {
+    [[nodiscard]] double area_of(const Vector<double, Dim>& position,
+                                 const typename BasalSegment<Dim>::Sides& sides) const {
       return width(position.template head<Dim - 1>()) * band::area_of<Dim>(sides);
     }
   };
   // Unit normal into the ground at a node; null if the ground is not near.
-  using NormalAtNode = std::function<const Vector<Real, Dim>*(std::size_t block, std::size_t node)>;
+  using NormalAtNode = std::function<const Vector<double, Dim>*(std::size_t block, std::size_t node)>;
 
   // gravity [m/s2].
-  BasalSegments(const ColumnsModel& model, const Vector<Real, Dim>& gravity) : model_(model), gravity_(gravity) {}
+  BasalSegments(const ColumnsModel& model, const Vector<double, Dim>& gravity) : model_(model), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks with contact. Call before each take, which uses the same stencils.
   void to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes);
@@ -78,15 +78,15 @@ class BasalSegments {
   // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
   // dt. First creates segments where the sliding mass touches ground without one. Call after contact.
   void update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
-                         Real thickness, Real dt, mpm::Nodes<Dim>& nodes);
+                         double thickness, double dt, mpm::Nodes<Dim>& nodes);
 
   // Updates segment velocities and stretches segments with the flow over the last `duration` [s]; then splits long
   // segments and merges small ones.
-  void follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal, Real duration,
+  void follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal, double duration,
               const mpm::Nodes<Dim>& nodes);
 
   // Then steps all columns over `duration` [s]. thickness: prescribed band thickness at its end [m].
-  void step(Real thickness, Real duration);
+  void step(double thickness, double duration);
 
   [[nodiscard]] const std::vector<BasalSegment<Dim>>& segments() const { return segments_; }
   // Means of the column after its last step, with the pore pressure under the present load.
@@ -111,46 +111,46 @@ class BasalSegments {
   using Stencil = BaseStencil<Dim>;
 
   using Lattice = std::array<int, Dim - 1>;  // cell of the horizontal lattice on which segments are created
-  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) const;
+  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<double, Dim>& position) const;
   [[nodiscard]] std::vector<Lattice> cells_in_contact(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
                                                       const mpm::Nodes<Dim>& nodes) const;
   void leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<Lattice>& cells) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const;
   void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
-                       Real thickness, mpm::Nodes<Dim>& nodes);
+                       double thickness, mpm::Nodes<Dim>& nodes);
   void list_segments_by_block(std::size_t blocks);
-  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, Real fraction = 1) const;
+  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, double fraction = 1) const;
   struct InContact {
-    Real area = 0, normal_force = 0;  // [m2], [N]
+    double area = 0, normal_force = 0;  // [m2], [N]
   };
-  void start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact, Real thickness,
+  void start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact, double thickness,
                      mpm::Nodes<Dim>& nodes, Segment& segment);
   [[nodiscard]] InContact in_contact(const Stencil& stencil, const mpm::Nodes<Dim>& nodes,
                                      const Segment& segment) const;
-  [[nodiscard]] Segment new_segment(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
+  [[nodiscard]] Segment new_segment(const Vector<double, Dim - 1>& middle, const Vector<double, Dim - 1>& size,
                                     const Ground& ground);
   // Motion of the sliding mass around a segment.
   struct Nearby {
-    Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();  // of the velocity, along the ground [1/s]
-    Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
+    Matrix<double, Dim> gradient = Matrix<double, Dim>::Zero();  // of the velocity, along the ground [1/s]
+    Vector<double, Dim> velocity = Vector<double, Dim>::Zero();  // along the ground [m/s]
     bool is_present = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil,
                                   const NormalAtNode& node_normal, const mpm::Nodes<Dim>& nodes,
                                   const Segment& segment) const;
-  void gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim>& nodes, Segment& segment) const;
-  void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Segment& segment) const;
-  void split_long_segments(Real most, const Ground& ground);
+  void gather_from_nodes(const Stencil& stencil, double dt, const mpm::Nodes<Dim>& nodes, Segment& segment) const;
+  void stretch_with(const Nearby& slide, const Ground& ground, double dt, Segment& segment) const;
+  void split_long_segments(double most, const Ground& ground);
   void merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground);
   void join(const Segment& other, const Ground& ground, Segment& segment);
   void keep_only(const std::vector<std::uint8_t>& left);
   void add_to_budget(const physics::ColumnBudget& term);
   void remove_segment(const Segment& segment);
   void place_on(const Ground& ground, Segment& segment) const;
-  void update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const;
+  void update_load(double normal_pressure, double borne, double dt, Segment& segment) const;
 
   ColumnsModel model_;
-  Vector<Real, Dim> gravity_;
+  Vector<double, Dim> gravity_;
   std::vector<Segment> segments_;
   // Stencils of this step, by segment, and the segments whose stencils reach a block: those of block b begin at
   // first_of_block_[b].

@@ -13,20 +13,20 @@ namespace thawslide::band {
 
 template <int Dim>
 struct BodySums {
-  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();     // [kg m/s]
-  Real kinetic = 0, potential = 0, sensible = 0, latent = 0;  // [J]
-  ExactSum mass;                                              // [kg]; exact, because it must be conserved bitwise
-  Real rock = 0, ice = 0, water = 0;                          // [kg]
-  Real seeped = 0;                                            // net water gained by seepage [kg]
-  Real gas = 0;                                               // void in the pores of the band's own material [m3]
-  Real initial_volume = 0, volume_change = 0;                 // at t = 0 or on joining; change since then [m3]
-  Real largest_speed2 = 0;                                    // squared [m2/s2]
-  Real moved_mass = 0;                                        // farther than SumsOfParticle::moved_distance [kg]
-  mpm::BodySet moved_bodies;                                  // with such mass
+  Vector<double, Dim> momentum = Vector<double, Dim>::Zero();   // [kg m/s]
+  double kinetic = 0, potential = 0, sensible = 0, latent = 0;  // [J]
+  ExactSum mass;                                                // [kg]; exact, because it must be conserved bitwise
+  double rock = 0, ice = 0, water = 0;                          // [kg]
+  double seeped = 0;                                            // net water gained by seepage [kg]
+  double gas = 0;                                               // void in the pores of the band's own material [m3]
+  double initial_volume = 0, volume_change = 0;                 // at t = 0 or on joining; change since then [m3]
+  double largest_speed2 = 0;                                    // squared [m2/s2]
+  double moved_mass = 0;                                        // farther than SumsOfParticle::moved_distance [kg]
+  mpm::BodySet moved_bodies;                                    // with such mass
   // Weighted by mass: path length of particles [kg m] and plastic strain [kg].
-  Real displacement = 0, plastic_strain = 0;
+  double displacement = 0, plastic_strain = 0;
   // Sums over particles in the band: mass [kg], temperature [kg C], saturation [kg] and pore pressure [kg Pa].
-  Real band_mass = 0, band_temperature = 0, band_saturation = 0, band_pore_pressure = 0;
+  double band_mass = 0, band_temperature = 0, band_saturation = 0, band_pore_pressure = 0;
 
   THAWSLIDE_HD BodySums& operator+=(const BodySums& part) {
     kinetic += part.kinetic;
@@ -60,23 +60,23 @@ struct BodySums {
 // Contribution of one particle.
 template <int Dim>
 struct SumsOfParticle {
-  Vector<Real, Dim> gravity, origin;  // [m/s2]; of positions [m]
+  Vector<double, Dim> gravity, origin;  // [m/s2]; of positions [m]
   physics::Phases phases;
-  bool latent;          // melting consumes latent heat
-  bool current_masses;  // heat content uses masses from the current porosity and volume, as published
-  bool melt_contracts;  // melting leaves a void
-  Real moved_distance;  // [m]
+  bool latent;            // melting consumes latent heat
+  bool current_masses;    // heat content uses masses from the current porosity and volume, as published
+  bool melt_contracts;    // melting leaves a void
+  double moved_distance;  // [m]
 
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD BodySums<Dim> operator()(const Particles& particles, std::uint32_t p) const {
-    const Real mass = particles.mass(p);
+    const double mass = particles.mass(p);
     BodySums<Dim> sums;
     sums.mass = mass;
     for (int a = 0; a < Dim; ++a) {
-      const Real velocity = particles.velocity(p, a);
+      const double velocity = particles.velocity(p, a);
       sums.momentum[a] = mass * velocity;
       sums.largest_speed2 += velocity * velocity;
-      sums.kinetic += Real(0.5) * mass * velocity * velocity;
+      sums.kinetic += 0.5 * mass * velocity * velocity;
       sums.potential -= mass * gravity[a] * (particles.position(p, a) + origin[a]);
     }
     if (particles.path_length(p) > moved_distance) {
@@ -91,7 +91,7 @@ struct SumsOfParticle {
     } else {
       add_initial_phases(particles, p, sums);
     }
-    sums.seeped = particles.seeped_water.is_kept() ? particles.seeped_water(p) : Real(0);
+    sums.seeped = particles.seeped_water.is_kept() ? particles.seeped_water(p) : 0.0;
     sums.gas = void_in_pores(particles, p);
     sums.initial_volume = particles.initial_volume(p);
     sums.volume_change = particles.volume(p) - particles.initial_volume(p);
@@ -107,10 +107,10 @@ struct SumsOfParticle {
  private:
   template <class Particles>
   THAWSLIDE_HD void add_heat(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
-    const Real pore = current_masses ? particles.volume(p) * particles.porosity(p)
-                                     : particles.initial_volume(p) * particles.initial_porosity(p);
-    const Real molten =
-        latent ? phases.ice_density * pore * phases.latent_heat * particles.liquid_saturation(p) : Real(0);
+    const double pore = current_masses ? particles.volume(p) * particles.porosity(p)
+                                       : particles.initial_volume(p) * particles.initial_porosity(p);
+    const double molten =
+        latent ? phases.ice_density * pore * phases.latent_heat * particles.liquid_saturation(p) : 0.0;
     sums.latent = molten / particles.thermal_scaling(p);
     sums.sensible = (particles.initial_volume(p) * particles.heat_content(p) - molten) / particles.thermal_scaling(p);
   }
@@ -118,43 +118,43 @@ struct SumsOfParticle {
   // Saturation used for a particle's masses. Heat acts on its volume V/xi, the band's own part, and only that part
   // melts. The rest represents material in its state at t = 0.
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD Real saturation_of_masses(const Particles& particles, std::uint32_t p) const {
-    const Real start = particles.initial_saturation(p);
+  [[nodiscard]] THAWSLIDE_HD double saturation_of_masses(const Particles& particles, std::uint32_t p) const {
+    const double start = particles.initial_saturation(p);
     return start + (particles.liquid_saturation(p) - start) / particles.thermal_scaling(p);
   }
 
   // Masses at t = 0; the sum of ice and water remains constant.
   template <class Particles>
   THAWSLIDE_HD void add_initial_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
-    const Real start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
-    const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
-                            (phases.water_density * start + phases.ice_density * (Real(1) - start));
+    const double start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
+    const double pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
+                              (phases.water_density * start + phases.ice_density * (1.0 - start));
     sums.rock = sums.mass - pore_water;
-    sums.ice = (Real(1) - saturation) * pore_water;
+    sums.ice = (1.0 - saturation) * pore_water;
     sums.water = saturation * pore_water;
   }
 
   // Masses from the current porosity and volume, as published. Their sum differs from the particle's mass.
   template <class Particles>
   THAWSLIDE_HD void add_current_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
-    const Real pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
+    const double pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
     sums.rock = (particles.volume(p) - pore) * phases.rock_density;
-    sums.ice = pore * (Real(1) - saturation) * phases.ice_density;
+    sums.ice = pore * (1.0 - saturation) * phases.ice_density;
     sums.water = pore * saturation * phases.water_density;
   }
 
   // Void in the pores of a particle's own part of the band [m3]. Pores that are still frozen have less void than their
   // water will leave.
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD Real void_in_pores(const Particles& particles, std::uint32_t p) const {
+  [[nodiscard]] THAWSLIDE_HD double void_in_pores(const Particles& particles, std::uint32_t p) const {
     if (!particles.pore_void.is_kept()) {
-      return Real(0);
+      return 0.0;
     }
-    const Real frozen = melt_contracts ? physics::melting_void(phases, particles.initial_porosity(p),
-                                                               Real(1) - particles.liquid_saturation(p))
-                                       : Real(0);
-    const Real open = particles.pore_void(p) - frozen;
-    return (open > Real(0) ? open : Real(0)) * particles.volume(p) / particles.thermal_scaling(p);
+    const double frozen = melt_contracts ? physics::melting_void(phases, particles.initial_porosity(p),
+                                                                 1.0 - particles.liquid_saturation(p))
+                                         : 0.0;
+    const double open = particles.pore_void(p) - frozen;
+    return (open > 0.0 ? open : 0.0) * particles.volume(p) / particles.thermal_scaling(p);
   }
 };
 

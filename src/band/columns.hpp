@@ -56,11 +56,11 @@ THAWSLIDE_HD inline std::uint64_t neighbour_column(std::uint64_t key, std::size_
 }
 
 template <int Dim>
-Vector<Real, Dim - 1> middle_of_column(std::uint64_t key, Real cell) {
-  Vector<Real, Dim - 1> middle;
+Vector<double, Dim - 1> middle_of_column(std::uint64_t key, double cell) {
+  Vector<double, Dim - 1> middle;
   for (int a = 0; a + 1 < Dim; ++a) {
     const auto number = static_cast<std::int64_t>(key >> (32 * a) & 0xffffffffu) - column_origin;
-    middle[a] = (static_cast<Real>(number) + Real(0.5)) * cell;
+    middle[a] = (static_cast<double>(number) + 0.5) * cell;
   }
   return middle;
 }
@@ -68,12 +68,12 @@ Vector<Real, Dim - 1> middle_of_column(std::uint64_t key, Real cell) {
 // Extent of the boxes in a column along each horizontal axis [m].
 template <int Dim>
 struct Extent {
-  std::array<Real, Dim - 1> from, to;
+  std::array<double, Dim - 1> from, to;
 
   THAWSLIDE_HD Extent() {
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      from[a] = std::numeric_limits<Real>::max();
-      to[a] = std::numeric_limits<Real>::lowest();
+      from[a] = std::numeric_limits<double>::max();
+      to[a] = std::numeric_limits<double>::lowest();
     }
   }
   THAWSLIDE_HD Extent& operator+=(const Extent& part) {
@@ -87,10 +87,10 @@ struct Extent {
 
 // Contents of a column: volume [m3], and top of its highest box [m].
 struct ColumnMass {
-  Real volume = 0;
-  Real top = std::numeric_limits<Real>::lowest();
+  double volume = 0;
+  double top = std::numeric_limits<double>::lowest();
 
-  [[nodiscard]] THAWSLIDE_HD bool is_present() const { return volume > Real(0); }
+  [[nodiscard]] THAWSLIDE_HD bool is_present() const { return volume > 0.0; }
   THAWSLIDE_HD ColumnMass& operator+=(const ColumnMass& part) {
     volume += part.volume;
     top = max(top, part.top);
@@ -112,8 +112,8 @@ THAWSLIDE_HD bool lacks_neighbour(const Filled& filled) {
 // Footprint [m2], per metre of width in 2D: that of the cell, or, at the edge of the body, the extent of the boxes in
 // it.
 template <int Dim, class Filled>
-THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim>& extent, const Filled& filled) {
-  Real footprint = 1;
+THAWSLIDE_HD double footprint_of(double cell, bool at_edge, const Extent<Dim>& extent, const Filled& filled) {
+  double footprint = 1;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     const bool inside = !at_edge || (filled(2 * a) && filled(2 * a + 1));
     footprint *= inside ? cell : min(cell, extent.to[a] - extent.from[a]);
@@ -121,17 +121,17 @@ THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim>& exten
   return footprint;
 }
 
-inline THAWSLIDE_HD Real thickness_of(const ColumnMass& column_mass, Real footprint) {
-  return column_mass.is_present() ? column_mass.volume / footprint : Real(0);
+inline THAWSLIDE_HD double thickness_of(const ColumnMass& column_mass, double footprint) {
+  return column_mass.is_present() ? column_mass.volume / footprint : 0.0;
 }
 
 // Load on the ground per depth of the column [Pa/m]. normal_gravity: of the column [m/s2].
-inline THAWSLIDE_HD Real load_per_depth(const ColumnMass& column_mass, Real mass, Real normal_gravity) {
+inline THAWSLIDE_HD double load_per_depth(const ColumnMass& column_mass, double mass, double normal_gravity) {
   return mass / column_mass.volume * normal_gravity;
 }
 
 template <class Particles>
-THAWSLIDE_HD void update_load(Particles& particles, std::uint32_t particle, Real load) {
+THAWSLIDE_HD void update_load(Particles& particles, std::uint32_t particle, double load) {
   particles.load_change(particle) = load - particles.normal_load(particle);
   particles.normal_load(particle) = load;
 }

@@ -21,19 +21,19 @@ struct Overlap {
 
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const mpm::HalfSize<Value>& size,
-                                                            int first_cell, Real cell, Real inverse_cell) {
+                                                            int first_cell, double cell, double inverse_cell) {
   using std::floor;
   const Value begin = middle - size.half, end = middle + size.half, sliver = Value(round_off) * size.half;
   const Value number = floor((begin + sliver) * inverse_cell);
-  const Value border = (number + Real(1)) * cell;
+  const Value border = (number + 1.0) * cell;
   const auto crosses = end - sliver >= border;
   Overlap<Value> over;
-  over.lower = number - static_cast<Real>(first_cell);
+  over.lower = number - static_cast<double>(first_cell);
   over.from[0] = max(begin, number * cell);
   over.to[0] = min(end, border);
   over.from[1] = border;
   over.to[1] = select(crosses, end, border);
-  const Value inverse_width = static_cast<Real>(0.5) * size.inverse;
+  const Value inverse_width = 0.5 * size.inverse;
   over.fraction[0] = (over.to[0] - over.from[0]) * inverse_width;
   over.fraction[1] = (over.to[1] - over.from[1]) * inverse_width;
   return over;
@@ -44,13 +44,13 @@ using Overlaps = std::array<Overlap<Value>, static_cast<std::size_t>(Dim) - 1>;
 
 template <int Dim, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
-    const std::array<int, Dim - 1>& first_cell, Real cell, Real inverse_cell, const mpm::SizesOfBodies& sizes,
+    const std::array<int, Dim - 1>& first_cell, double cell, double inverse_cell, const mpm::SizesOfBodies& sizes,
     const Particles& particles, const At& at) {
   const auto size = sizes.of(particles, at);
   Overlaps<Dim, typename At::Value> along;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     along[a] = overlap(particles.position.load(at, static_cast<int>(a)), size, first_cell[a], cell, inverse_cell);
-    const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
+    const auto inside = (along[a].lower >= 0.0) & (along[a].lower <= double(mpm::Tile<Dim>::edge));
     THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
                      particles.id(at.particle[0]), extract(along[a].lower, 0));
   }
@@ -61,13 +61,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
 // overlap.
 template <int Dim, class Value, class Visit>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>& along, const Visit& visit) {
-  constexpr auto per_axis = static_cast<Real>(columns_per_axis<Dim>);
+  constexpr auto per_axis = static_cast<double>(columns_per_axis<Dim>);
   unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
     std::array<std::size_t, Dim - 1> side{};
-    Value index = Real(0), fraction = Real(1);
+    Value index = 0.0, fraction = 1.0;
     for (std::size_t a = Dim - 1; a-- > 0;) {
       side[a] = corner >> a & 1;
-      index = index * per_axis + along[a].lower + static_cast<Real>(side[a]);
+      index = index * per_axis + along[a].lower + static_cast<double>(side[a]);
       fraction = fraction * along[a].fraction[side[a]];
     }
     visit(side, index, fraction);
@@ -88,7 +88,7 @@ THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side
 // One number per column in reach of a tile, by place.
 template <int Dim>
 struct NumbersOfTile {
-  std::array<Real, columns_per_tile<Dim>> numbers;
+  std::array<double, columns_per_tile<Dim>> numbers;
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value at(const Value& index) const {
@@ -97,10 +97,10 @@ struct NumbersOfTile {
 };
 // The same, by index into the numbers of all columns.
 struct NumbersOfColumns {
-  const Real* numbers;
+  const double* numbers;
   const std::int32_t* column;  // by place
 
-  [[nodiscard]] THAWSLIDE_HD Real at(const Real& index) const {
+  [[nodiscard]] THAWSLIDE_HD double at(const double& index) const {
     return numbers[column[static_cast<std::size_t>(index)]];
   }
 };
@@ -109,7 +109,7 @@ struct NumbersOfColumns {
 template <int Dim, class Numbers = NumbersOfTile<Dim>>
 struct ColumnsOfTile {
   std::array<int, Dim - 1> first_cell;  // number along each horizontal axis
-  Real cell, inverse_cell;              // [m], [1/m]
+  double cell, inverse_cell;            // [m], [1/m]
   mpm::SizesOfBodies sizes;             // half sizes of particles [m]
   Numbers thickness, top, cosine;
   bool has_ground = false;  // `top` is above the ground (mpm/mapping.hpp)
@@ -120,15 +120,15 @@ struct ColumnsOfTile {
   [[nodiscard]] THAWSLIDE_HD typename At::Value flow_depth(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     const Value height = height_of(particles, at);
-    const auto in_band = particles.in_band.load_whole(at) > Real(0);
+    const auto in_band = particles.in_band.load_whole(at) > 0.0;
     const bool any_in_band = any(in_band);
-    Value depth = Real(0);
+    Value depth = 0.0;
     for_columns<Dim>(overlaps<Dim>(first_cell, cell, inverse_cell, sizes, particles, at),
                      [&](const auto& /*side*/, Value index, Value fraction) THAWSLIDE_INLINE_LAMBDA {
-                       if (!any(fraction > Real(0))) {
+                       if (!any(fraction > 0.0)) {
                          return;
                        }
-                       Value here = max(top.at(index) - height, Value(Real(0)));
+                       Value here = max(top.at(index) - height, Value(0.0));
                        if (any_in_band) {
                          here = select(in_band, thickness.at(index), here);
                        }
@@ -141,10 +141,10 @@ struct ColumnsOfTile {
   [[nodiscard]] THAWSLIDE_HD typename At::Value below_top(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     using std::floor;
-    Value index = Real(0);
+    Value index = 0.0;
     for (std::size_t a = Dim - 1; a-- > 0;) {
       const Value number = floor(particles.position.load(at, static_cast<int>(a)) * inverse_cell);
-      index = index * Real(columns_per_axis<Dim>) + (number - static_cast<Real>(first_cell[a]));
+      index = index * double(columns_per_axis<Dim>) + (number - static_cast<double>(first_cell[a]));
     }
     return top.at(index) - height_of(particles, at);
   }

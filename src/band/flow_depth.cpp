@@ -48,22 +48,23 @@ void FlowDepth<Dim>::add_tile(const mpm::SparseGrid<Dim>& grid, const mpm::Parti
   part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
-    const Simd<Real> top =
+    const Simd<double> top =
         grid.mapping().template coordinate<Dim>(particles, batch, Dim - 1) + sizes_.of(particles, batch).half;
-    const Simd<Real> volume = particles.volume.load(batch);
+    const Simd<double> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
     std::array<std::array<std::int32_t, mpm::SimdBatch::most>, corners> columns;
-    std::array<Simd<Real>, corners> volumes;
+    std::array<Simd<double>, corners> volumes;
     std::size_t seen = 0;
-    for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> index, Simd<Real> fraction) THAWSLIDE_INLINE_LAMBDA {
-      if (any(fraction > Real(0))) {
-        index.store_whole(columns[seen].data());
-        volumes[seen++] = fraction * volume;
-      }
-    });
+    for_columns<Dim>(along,
+                     [&](const auto& /*side*/, Simd<double> index, Simd<double> fraction) THAWSLIDE_INLINE_LAMBDA {
+                       if (any(fraction > 0.0)) {
+                         index.store_whole(columns[seen].data());
+                         volumes[seen++] = fraction * volume;
+                       }
+                     });
     for (std::size_t lane = 0; lane < batch.count; ++lane) {
       for (std::size_t k = 0; k < seen; ++k) {
-        if (volumes[k][lane] > Real(0)) {
+        if (volumes[k][lane] > 0.0) {
           part.column_mass[static_cast<std::size_t>(columns[k][lane])] += {volumes[k][lane], top[lane]};
         }
       }
@@ -79,9 +80,9 @@ void FlowDepth<Dim>::add_extents(const mpm::SparseGrid<Dim>& grid, const mpm::Pa
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    for_columns<Dim>(along, [&](const auto& side, Simd<Real> index, Simd<Real> fraction) {
+    for_columns<Dim>(along, [&](const auto& side, Simd<double> index, Simd<double> fraction) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        if (fraction[lane] > Real(0)) {
+        if (fraction[lane] > 0.0) {
           part.extent[static_cast<std::size_t>(index[lane])] += extent_in_column<Dim>(along, side, lane);
         }
       }
@@ -121,7 +122,7 @@ void FlowDepth<Dim>::find_edge() {
 }
 
 template <int Dim>
-void FlowDepth<Dim>::set_footprints(Real cell) {
+void FlowDepth<Dim>::set_footprints(double cell) {
   for (const std::size_t t : edge_tiles_) {
     for (std::size_t index = 0; index < indices; ++index) {
       columns_[static_cast<std::size_t>(tiles_[t].number[index])].extent += tiles_[t].extent[index];
@@ -184,19 +185,19 @@ void FlowDepth<Dim>::sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Par
   tile_masses_.resize(tiles_.size());
   parallel_for(tiles_.size(), [&](std::size_t t) {
     auto& masses = tile_masses_[t];
-    masses.fill(Real(0));
+    masses.fill(0.0);
     const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
     for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
       const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-      std::array<Simd<Real>, corners> columns, fractions;
+      std::array<Simd<double>, corners> columns, fractions;
       std::size_t corner = 0;
-      for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> index, Simd<Real> fraction) {
+      for_columns<Dim>(along, [&](const auto& /*side*/, Simd<double> index, Simd<double> fraction) {
         columns[corner] = index;
         fractions[corner++] = fraction;
       });
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         for (std::size_t k = 0; k < corners; ++k) {
-          if (fractions[k][lane] > Real(0)) {
+          if (fractions[k][lane] > 0.0) {
             masses[static_cast<std::size_t>(columns[k][lane])] +=
                 fractions[k][lane] * particles.mass(batch.particle[lane]);
           }
@@ -204,7 +205,7 @@ void FlowDepth<Dim>::sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Par
       }
     }
   });
-  masses_.assign(columns_.size(), Real(0));
+  masses_.assign(columns_.size(), 0.0);
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     for (std::size_t index = 0; index < indices; ++index) {
       masses_[static_cast<std::size_t>(tiles_[t].number[index])] += tile_masses_[t][index];
@@ -216,7 +217,7 @@ template <int Dim>
 void FlowDepth<Dim>::load_to_particles(const mpm::SparseGrid<Dim>& grid, const NormalGravity& normal_gravity,
                                        mpm::Particles<Dim>& particles, std::size_t first) {
   sum_masses(grid, particles);
-  load_per_depth_.assign(columns_.size(), Real(0));
+  load_per_depth_.assign(columns_.size(), 0.0);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (columns_[c].column_mass.is_present()) {
       load_per_depth_[c] = load_per_depth(columns_[c].column_mass, masses_[c],
@@ -229,7 +230,7 @@ void FlowDepth<Dim>::load_to_particles(const mpm::SparseGrid<Dim>& grid, const N
       columns.cosine.numbers[index] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[index])];
     }
     for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
-      const Simd<Real> load = columns.flow_depth(particles, batch);
+      const Simd<double> load = columns.flow_depth(particles, batch);
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         const std::uint32_t p = batch.particle[lane];
         if (p >= first) {

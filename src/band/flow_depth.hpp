@@ -49,9 +49,9 @@ class FlowDepth {
     ColumnMass column_mass;
     Extent<Dim> extent;  // of a column at the edge of the body
     bool at_edge = false;
-    Real footprint = 0;
-    Real cosine = 1;                                         // of the terrain slope
-    Real width = 1;                                          // of the section, relative
+    double footprint = 0;
+    double cosine = 1;                                       // of the terrain slope
+    double width = 1;                                        // of the section, relative
     std::array<std::int32_t, column_sides<Dim>> adjacent{};  // adjacent columns, or KeyIndex::absent
   };
   // Contribution of one tile's particles to the columns in reach, by place.
@@ -67,7 +67,7 @@ class FlowDepth {
   void add_extents(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles, std::size_t t);
   void sum_columns();
   void find_edge();
-  void set_footprints(Real cell);
+  void set_footprints(double cell);
   void sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles);
   // True if the column exists and contains part of the sliding mass.
   [[nodiscard]] bool is_filled(std::int32_t column) const {
@@ -83,8 +83,8 @@ class FlowDepth {
   std::vector<std::size_t> edge_tiles_;
   mpm::BodySizes sizes_;  // half sizes of particles [m]
   // If loads are required: mass of each tile's columns by place, and of columns [kg]; load per depth [Pa/m].
-  std::vector<std::array<Real, indices>> tile_masses_;
-  std::vector<Real> masses_, load_per_depth_;
+  std::vector<std::array<double, indices>> tile_masses_;
+  std::vector<double> masses_, load_per_depth_;
 };
 
 }  // namespace thawslide::band

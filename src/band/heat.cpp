@@ -17,7 +17,7 @@ namespace {
 using mpm::every_tile, mpm::NodeAt;
 
 template <int Dim>
-NodalHeat solve_with_tangent(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
+NodalHeat solve_with_tangent(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double dt, bool first_step,
                              mpm::Nodes<Dim>& nodes) {
   using mpm::HeatRates;
   nodes.heat_rates.resize(grid.blocks().size());
@@ -35,8 +35,8 @@ NodalHeat solve_with_tangent(const mpm::SparseGrid<Dim>& grid, const BandModel<D
 // still contain the sums with the tangent capacity; rates there are unchanged except for face conditions. Returns the
 // heat through faces [J].
 template <int Dim>
-Real solve_with_secant(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
-                       mpm::Nodes<Dim>& nodes) {
+double solve_with_secant(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double dt, bool first_step,
+                         mpm::Nodes<Dim>& nodes) {
   using mpm::HeatRates;
   const auto& changing = nodes.marks.changing_blocks;
   nodes.secant_rates.allocate(grid.blocks().size(), [&](std::size_t b) { return changing[b] != 0; });
@@ -60,9 +60,9 @@ Real solve_with_secant(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& m
 // Marks the tiles in which the temperature of a particle may change by more than is negligible, and the blocks around
 // them.
 template <int Dim, class Law>
-void find_changes(const mpm::SparseGrid<Dim>& grid, const Law& law, Real dt, const mpm::Particles<Dim>& particles,
+void find_changes(const mpm::SparseGrid<Dim>& grid, const Law& law, double dt, const mpm::Particles<Dim>& particles,
                   mpm::Nodes<Dim>& nodes) {
-  const auto half_negligible = [&](auto change) { return law.content.is_negligible(Real(2) * change); };
+  const auto half_negligible = [&](auto change) { return law.content.is_negligible(2.0 * change); };
   constexpr std::size_t own_block = static_cast<std::size_t>(mpm::Tile<Dim>::stencil) / 2;
   auto& marks = nodes.marks;
   marks.changing_tiles.resize(grid.tiles().size());
@@ -106,7 +106,7 @@ struct SeesUnreachedHeat {
   [[nodiscard]] bool operator()(std::size_t tile) const {
     mpm::PatchOf<mpm::UnreachedHeat, Dim> heat;
     load_patch(grid, tile, unreached_heat, heat);
-    rows[tile] = heat.rows_with(grid.rows_seen(tile), [](const auto& record) { return record[0] != Real(0); });
+    rows[tile] = heat.rows_with(grid.rows_seen(tile), [](const auto& record) { return record[0] != 0.0; });
     return rows[tile] != 0;
   }
   [[nodiscard]] bool operator()(std::size_t tile, const mpm::BatchNodes& nodes) const {
@@ -117,7 +117,7 @@ struct SeesUnreachedHeat {
 
 // Distributes the friction heat of nodes without linear weight to the particles in their reach.
 template <int Dim>
-void redistribute_unreached_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt,
+void redistribute_unreached_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double dt,
                                  mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles) {
   thread_local std::vector<std::uint64_t> rows;  // persistent, to avoid allocation in each step
   rows.resize(grid.tiles().size());
@@ -129,14 +129,14 @@ void redistribute_unreached_heat(const mpm::SparseGrid<Dim>& grid, const BandMod
 }  // namespace
 
 template <int Dim>
-HeatGain conduct_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
+HeatGain conduct_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double dt, bool first_step,
                       mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles) {
   return with_particle_heat(model, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     const auto pass = [&](const auto& tile_filter, const auto& kernel) {
       return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, tile_filter, kernel));
     };
-    const Real from_porosity = model.current_masses ? pass(every_tile, UpdateHeatMass<Dim, Law>{law}) : Real(0);
+    const double from_porosity = model.current_masses ? pass(every_tile, UpdateHeatMass<Dim, Law>{law}) : 0.0;
     const bool subgrid = model.secant_capacity && !first_step;
     pass(every_tile, HeatFlows<Dim, Law>{model, model.hydraulic(), law, dt, grid.inverse_cell(), subgrid});
     NodalHeat solved = solve_with_tangent(grid, model, dt, first_step, nodes);
@@ -160,8 +160,8 @@ HeatGain conduct_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& mo
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
-  template HeatGain conduct_heat<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, Real, bool, \
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                      \
+  template HeatGain conduct_heat<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, double, bool, \
                                       mpm::Nodes<Dim>&, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

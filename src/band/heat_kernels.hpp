@@ -25,7 +25,7 @@ struct HeatFlows {
   const BandPhysics& model;
   HydraulicConductivity hydraulic;
   const Law& law;
-  Real dt, inverse_cell;
+  double dt, inverse_cell;
   // false in the first step, when prescribed temperatures jump and nodes are ahead of particles, and in the published
   // formulation
   bool subgrid;
@@ -39,7 +39,7 @@ struct HeatFlows {
     const Value scaling = particles.thermal_scaling.load(at);
     const Value tangent = law.tangent(particles, at);
     const Value capacity = particles.initial_volume.load(at) / scaling * tangent;
-    Value in_cell = Real(0);
+    Value in_cell = 0.0;
     auto& rates = added.template of<mpm::HeatRates>();
     if (model.conduction) {
       const Value conductivity =
@@ -62,11 +62,10 @@ struct HeatFlows {
         const auto flux = carried_heat(particles, at, seen);
         for (std::size_t a = 0; a < Dim; ++a) {
           rates.flux[a][mpm::HeatRates::conduction] =
-              rates.flux[a][mpm::HeatRates::conduction] + select(melted, flux[static_cast<int>(a)], Value(Real(0)));
+              rates.flux[a][mpm::HeatRates::conduction] + select(melted, flux[static_cast<int>(a)], Value(0.0));
         }
       } else {
-        rates.value[mpm::HeatRates::advection] =
-            select(melted, advection(particles, at, seen, gradient), Value(Real(0)));
+        rates.value[mpm::HeatRates::advection] = select(melted, advection(particles, at, seen, gradient), Value(0.0));
       }
     }
     rates.value[mpm::HeatRates::capacity] = capacity;
@@ -83,7 +82,7 @@ struct HeatFlows {
         gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
     const auto mobility =
         particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
-    const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
+    const double capacity = model.phases.water_density * model.phases.water_heat_capacity;
     return particles.volume.load(at) * capacity * mobility * pressure_gradient.dot(temperature_gradient);
   }
 
@@ -96,7 +95,7 @@ struct HeatFlows {
         gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
     const Value mobility =
         particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
-    const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
+    const double capacity = model.phases.water_density * model.phases.water_heat_capacity;
     const Value carried = particles.volume.load(at) * capacity * mobility *
                           (particles.temperature.load(at) - model.reference_temperature);
     return Vector<Value, Dim>(-carried * pressure_gradient);
@@ -106,7 +105,7 @@ struct HeatFlows {
 // Temperature change [K] in a step: interpolated from nodes plus the change within the cell.
 template <class Particles, class At, class Seen>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(const Particles& particles, const At& at,
-                                                                              const Seen& seen, Real dt) {
+                                                                              const Seen& seen, double dt) {
   return particles.conduction_in_cell.load(at) +
          dt * seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature_rate).value[0];
 }
@@ -120,7 +119,7 @@ struct SecantCapacity {
   using Totals = mpm::NoTotals;
 
   const Law& law;
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -148,7 +147,7 @@ struct RedistributeUnreachedHeat {
   using Adds = mpm::RecordList<>;
   using Totals = mpm::NoTotals;
 
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -156,9 +155,8 @@ struct RedistributeUnreachedHeat {
     const auto specific = seen.template read<mpm::UnreachedHeat, 1>().value[0];
     const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
                       particles.initial_volume.load(at);  // [J/m3]
-    particles.conduction_in_cell.store(at,
-                                       particles.conduction_in_cell.load(at) +
-                                           select(gain != Real(0), gain / particles.secant_capacity.load(at), gain));
+    particles.conduction_in_cell.store(at, particles.conduction_in_cell.load(at) +
+                                               select(gain != 0.0, gain / particles.secant_capacity.load(at), gain));
   }
 };
 
@@ -169,7 +167,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phase
   const Value temperature = particles.temperature.load(at), porosity = particles.porosity.load(at);
   const Value saturation = law.content.curve.saturation(temperature);
   particles.liquid_saturation.store(at, select(changed, saturation, particles.liquid_saturation.load(at)));
-  const Value updated = physics::updated_porosity(phases, porosity, Value(Real(0)), temperature - before);
+  const Value updated = physics::updated_porosity(phases, porosity, Value(0.0), temperature - before);
   particles.porosity.store(at, select(changed, updated, porosity));
 }
 
@@ -182,7 +180,7 @@ struct UpdateHeat {
 
   const BandPhysics& model;
   const Law& law;
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -209,11 +207,11 @@ template <int Dim, class Law>
 struct UpdateHeatApparentCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
-  using Totals = Real;
+  using Totals = double;
 
   const BandPhysics& model;
   const Law& law;
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -224,7 +222,7 @@ struct UpdateHeatApparentCapacity {
     const Value before = particles.temperature.load(at), temperature = before + gain / tangent;
     particles.previous_temperature.store(at, before);
     particles.temperature.store(at, temperature);
-    const auto changed = gain != Real(0);
+    const auto changed = gain != 0.0;
     if (any(changed)) {
       follow_temperature(model.phases, law, particles, at, changed, before);
     }
@@ -241,7 +239,7 @@ template <int Dim, class Law>
 struct UpdateHeatMass {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Totals = Real;
+  using Totals = double;
 
   const Law& law;
 

@@ -28,22 +28,23 @@ template <int Dim>
 struct SolveTemperatureRate {
   const mpm::SparseGrid<Dim>& grid;
   const BandModel<Dim>& model;
-  Real dt;
+  double dt;
   bool first_step;
   bool has_faces = model.at_faces.any();
 
-  void operator()(mpm::Nodes<Dim>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid, NodalHeat& sum) const {
+  void operator()(mpm::Nodes<Dim>& nodes, const mpm::NodeAt& at, double capacity, double subgrid,
+                  NodalHeat& sum) const {
     const bool has_contact = nodes.unreached_heat.contains(at.block);
-    Real none = 0;
-    Real& unreached = has_contact ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;
+    double none = 0;
+    double& unreached = has_contact ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;
     solve_temperature_rate<Dim>(
         nodes.heat_rates(at), capacity, subgrid, nodes.contact(at)[mpm::Contact::friction_heat], nodes.momentum(at), dt,
-        nodes.state(at)[mpm::NodalState::temperature_rate], unreached, sum, [&](Real& rate, Real& power) {
+        nodes.state(at)[mpm::NodalState::temperature_rate], unreached, sum, [&](double& rate, double& power) {
           return has_faces && meets_face(model.at_faces.at(mpm::node_position(grid, at.block, at.node)), first_step,
                                          nodes.averages(at), capacity, grid.cell(), dt, rate, power, sum.gain.boundary);
         });
-    THAWSLIDE_ASSERT(has_contact || !(unreached > Real(0)),
-                     "friction heat at node {} of block {}, which is in no contact", at.node, at.block);
+    THAWSLIDE_ASSERT(has_contact || !(unreached > 0.0), "friction heat at node {} of block {}, which is in no contact",
+                     at.node, at.block);
   }
 };
 

@@ -23,17 +23,17 @@ void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particle
 }
 
 template <int Dim>
-Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
-                  mpm::Particles<Dim>& particles, std::size_t first) {
-  const bool by_slope = thickness > Real(0) && grid.mapping().has_ground;
-  const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
+double rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double thickness,
+                    mpm::Particles<Dim>& particles, std::size_t first) {
+  const bool by_slope = thickness > 0.0 && grid.mapping().has_ground;
+  const double of_a_cell = thickness > 0.0 ? grid.cell() / thickness : 1.0;
   const auto scaling_at = [&](std::uint32_t p) {
     if (model.region != BandRegion::all && particles.in_band(p) == 0) {
-      return Real(1);
+      return 1.0;
     }
     return by_slope ? layer_along_normal<Dim>(grid.cell(), particles, p) / thickness : of_a_cell;
   };
-  return parallel_sum<Real>(grid.tiles().size(), [&](std::size_t t, Real& added) {
+  return parallel_sum<double>(grid.tiles().size(), [&](std::size_t t, double& added) {
     with_particle_heat(model, [&](const auto& law) {
       for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
         const std::uint32_t p = grid.order()[k];
@@ -46,10 +46,10 @@ Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
 }
 
 template <int Dim>
-void add_heat(const BandModel<Dim>& model, Real heat, std::size_t particle, mpm::Particles<Dim>& particles) {
+void add_heat(const BandModel<Dim>& model, double heat, std::size_t particle, mpm::Particles<Dim>& particles) {
   const auto p = static_cast<std::uint32_t>(particle);
   const mpm::ScalarIndex one{{p}};
-  const Real before = particles.temperature(p);
+  const double before = particles.temperature(p);
   particles.heat_content(p) += heat * particles.thermal_scaling(p) / particles.initial_volume(p);
   with_particle_heat(model, [&](const auto& law) {
     particles.temperature(p) = law.temperature(particles, one, particles.heat_content(p), before);
@@ -58,11 +58,11 @@ void add_heat(const BandModel<Dim>& model, Real heat, std::size_t particle, mpm:
   particles.previous_temperature(p) = particles.temperature(p);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                \
-  template void set_heat_content<Dim>(const BandModel<Dim>&, mpm::Particles<Dim>&, std::size_t);                  \
-  template Real rescale_band<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, Real, mpm::Particles<Dim>&, \
-                                  std::size_t);                                                                   \
-  template void add_heat<Dim>(const BandModel<Dim>&, Real, std::size_t, mpm::Particles<Dim>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
+  template void set_heat_content<Dim>(const BandModel<Dim>&, mpm::Particles<Dim>&, std::size_t);                      \
+  template double rescale_band<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, double, mpm::Particles<Dim>&, \
+                                    std::size_t);                                                                     \
+  template void add_heat<Dim>(const BandModel<Dim>&, double, std::size_t, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

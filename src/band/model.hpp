@@ -33,7 +33,7 @@ struct BandModel : BandPhysics {
 
   bool pressure = true;
   bool normal_thickness = true;
-  std::vector<Real> hydraulic_conductivity;              // by material [m/s]
+  std::vector<double> hydraulic_conductivity;            // by material [m/s]
   mpm::BodySizes sizes;                                  // of particles, in cells
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   mpm::PrescribedSides<Dim> sides;

@@ -10,11 +10,11 @@ namespace thawslide::band {
 
 // Heat gained by the body in one step [J], by source.
 struct HeatGain {
-  Real friction = 0;
-  Real boundary = 0;
-  Real advection = 0;
-  Real capacity = 0;  // created by updating with the old apparent capacity
-  Real porosity = 0;  // created by masses from the current porosity and volume
+  double friction = 0;
+  double boundary = 0;
+  double advection = 0;
+  double capacity = 0;  // created by updating with the old apparent capacity
+  double porosity = 0;  // created by masses from the current porosity and volume
 
   THAWSLIDE_HD HeatGain& operator+=(const HeatGain& part) {
     friction += part.friction;
@@ -43,20 +43,20 @@ struct NodalHeat {
 // the node has no linear weight. meets_face(rate, power): true if a face condition has set the rate; it may add to the
 // power [W].
 template <int Dim, class Rates, class MomentumRecord, class MeetsFace>
-THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, Real capacity, Real subgrid, Real friction,
-                                         const MomentumRecord& momentum, Real dt, Real& rate, Real& unreached,
+THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, double capacity, double subgrid, double friction,
+                                         const MomentumRecord& momentum, double dt, double& rate, double& unreached,
                                          NodalHeat& sum, const MeetsFace& meets_face) {
   using mpm::HeatRates;
-  rate = unreached = Real(0);
+  rate = unreached = 0.0;
   sum.gain.friction += dt * friction;
-  if (!(capacity > Real(0))) {
-    if (friction > Real(0)) {
+  if (!(capacity > 0.0)) {
+    if (friction > 0.0) {
       unreached = friction / momentum[mpm::MomentumLayout<Dim>::mass];
       ++sum.unreached_nodes;
     }
     return;
   }
-  Real power = rates[HeatRates::conduction] + rates[HeatRates::advection] + friction - subgrid * (Real(1) / dt);
+  double power = rates[HeatRates::conduction] + rates[HeatRates::advection] + friction - subgrid * (1.0 / dt);
   sum.gain.advection += dt * rates[HeatRates::advection];
   if (!meets_face(rate, power)) {
     rate = power / capacity;

@@ -24,9 +24,9 @@ using physics::FrozenRows;
 
 struct BandPhysics {
   physics::Phases phases;
-  Real reference_temperature = 0;  // Tref [C]
-  Real clapeyron_sign = 1;         // +1 by default, -1 as published in Eq. 4
-  Real gravity = 0;                // magnitude [m/s2]
+  double reference_temperature = 0;  // Tref [C]
+  double clapeyron_sign = 1;         // +1 by default, -1 as published in Eq. 4
+  double gravity = 0;                // magnitude [m/s2]
   bool conduction = true;
   bool advection = true;
   bool thermal_pressurization = true;
@@ -37,30 +37,30 @@ struct BandPhysics {
   FrozenRows frozen_rows = FrozenRows::draining;
   bool ice_presses = true;              // P is that of ice and liquid while frozen; off: 0
   bool melt_contracts = false;          // melting leaves a void
-  Real residual_stress = 0;             // s0, on thawing if ice does not press [Pa]
-  Real skeleton_compressibility = 0;    // m_v [1/Pa]
+  double residual_stress = 0;           // s0, on thawing if ice does not press [Pa]
+  double skeleton_compressibility = 0;  // m_v [1/Pa]
   physics::WaterExpansion water;        // beta_L
   bool conservative_advection = false;  // advected heat is a flux; off: rho_L C_L q.grad T, as in Eq. 9
   bool rescaling_mixes = false;         // a thickening band takes in material in its state at t = 0
 
   // True if the water balance of pores is used (physics/pore_water.hpp) instead of Eq. 23 as published.
   [[nodiscard]] THAWSLIDE_HD bool balances_water() const {
-    return !ice_presses || melt_contracts || skeleton_compressibility > Real(0) ||
+    return !ice_presses || melt_contracts || skeleton_compressibility > 0.0 ||
            water.law != physics::WaterExpansionLaw::constant;
   }
   // True if particles need the normal load N.
-  [[nodiscard]] bool needs_normal_load() const { return !ice_presses || skeleton_compressibility > Real(0); }
+  [[nodiscard]] bool needs_normal_load() const { return !ice_presses || skeleton_compressibility > 0.0; }
 };
 
 // True if water may seep anywhere. hydraulic_conductivity: by material [m/s].
-inline bool water_may_seep(const BandPhysics& model, const std::vector<Real>& hydraulic_conductivity) {
+inline bool water_may_seep(const BandPhysics& model, const std::vector<double>& hydraulic_conductivity) {
   return model.seepage && model.thermal_pressurization &&
-         std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(), [](Real k) { return k > Real(0); });
+         std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(), [](double k) { return k > 0.0; });
 }
 
 // Hydraulic conductivity [m/s] of particles, by material.
 struct HydraulicConductivity {
-  const Real* of_material;
+  const double* of_material;
   bool is_uniform;  // one value for all materials
 
   template <class Particles, class At>

@@ -12,18 +12,18 @@ namespace {
 
 // Nodal pressure change by seepage in a step (Eq. 22). Returns the mass of water lost to frozen pores [kg].
 template <int Dim>
-Real seep(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, mpm::Particles<Dim>& particles,
-          mpm::Nodes<Dim>& nodes) {
+double seep(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double dt, mpm::Particles<Dim>& particles,
+            mpm::Nodes<Dim>& nodes) {
   const auto& blocks = nodes.marks.seeping_blocks;
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
       SeepageFlows<Dim>{model, model.hydraulic(), dt, grid.inverse_cell()});
   nodes.seepage.allocate(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
-  const Real absorbed = mpm::node_pass<Real>(
+  const double absorbed = mpm::node_pass<double>(
       grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::Seepage>(grid, b, nodes) : 0; },
-      [&](const mpm::NodeAt& at, Real& sum) {
+      [&](const mpm::NodeAt& at, double& sum) {
         const auto& sums = nodes.seepage(at);
-        Real& change = nodes.state(at)[mpm::NodalState::pressure_change];
+        double& change = nodes.state(at)[mpm::NodalState::pressure_change];
         change = pressure_change(sums, dt);
         sum += absorbed_by_frozen(sums, change);
       });
@@ -34,7 +34,7 @@ Real seep(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt
 
 template <int Dim>
 WaterLoss drain_pore_pressure(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
-                              const FlowDepth<Dim>& depth, Real dt, mpm::Nodes<Dim>& nodes,
+                              const FlowDepth<Dim>& depth, double dt, mpm::Nodes<Dim>& nodes,
                               mpm::Particles<Dim>& particles) {
   const auto update = [&](auto seeps) {
     const auto pass = [&](const auto& kernel) {
@@ -60,7 +60,7 @@ template <int Dim>
 void set_pore_pressure(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
   for (std::size_t p = first; p < particles.size(); ++p) {
     if (!model.pressure) {
-      particles.pore_pressure(p) = Real(0);
+      particles.pore_pressure(p) = 0.0;
       continue;
     }
     particles.ice_pressure(p) = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth(p));
@@ -70,7 +70,7 @@ void set_pore_pressure(const BandModel<Dim>& model, mpm::Particles<Dim>& particl
     if (particles.temperature(p) < model.reference_temperature) {
       const auto frozen = model.ice_presses ? frozen_pressures(model, particles.ice_pressure(p),
                                                                particles.temperature(p), particles.liquid_saturation(p))
-                                            : Pressures<Real>{};
+                                            : Pressures<double>{};
       particles.liquid_pressure(p) = frozen.liquid;
       particles.pore_pressure(p) = frozen.pore;
     } else {
@@ -81,9 +81,9 @@ void set_pore_pressure(const BandModel<Dim>& model, mpm::Particles<Dim>& particl
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                  \
-  template WaterLoss drain_pore_pressure<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&,                   \
-                                              const FlowDepth<Dim>&, Real, mpm::Nodes<Dim>&, mpm::Particles<Dim>&); \
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
+  template WaterLoss drain_pore_pressure<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&,                     \
+                                              const FlowDepth<Dim>&, double, mpm::Nodes<Dim>&, mpm::Particles<Dim>&); \
   template void set_pore_pressure<Dim>(const BandModel<Dim>&, mpm::Particles<Dim>&, std::size_t);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

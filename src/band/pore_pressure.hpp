@@ -12,14 +12,14 @@ namespace thawslide::band {
 // Water lost by particles in one step: at the surface, with its heat, and to frozen pores [kg].
 struct WaterLoss {
   DrainedWater drained;
-  Real vented = 0;
+  double vented = 0;
 };
 
 // Updates flow depth and pore pressure of all particles over dt. Call after conduct_heat, with average_on_grid at the
 // beginning of the step.
 template <int Dim>
 WaterLoss drain_pore_pressure(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
-                              const FlowDepth<Dim>& depth, Real dt, mpm::Nodes<Dim>& nodes,
+                              const FlowDepth<Dim>& depth, double dt, mpm::Nodes<Dim>& nodes,
                               mpm::Particles<Dim>& particles);
 
 // Sets the pressures of new particles, those at memory index `first` and above, from temperature and flow depth. A
@@ -39,7 +39,7 @@ struct UpdatePorePressure {
   const FlowDepth<Dim>& depth;
 
   [[nodiscard]] OfTile in_tile(std::size_t tile) const {
-    return {model, model.hydraulic(), Real(0.5) * grid.cell(), depth.of_tile(grid, tile)};
+    return {model, model.hydraulic(), 0.5 * grid.cell(), depth.of_tile(grid, tile)};
   }
 };
 

@@ -23,7 +23,7 @@ template <class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any_seeped(const BandPhysics& model, const HydraulicConductivity& hydraulic,
                                                      const Particles& particles, const At& at) {
   const auto melted = melted_before(model, particles, at);
-  return any(melted) && any(melted & (hydraulic(particles, at) > Real(0)));
+  return any(melted) && any(melted & (hydraulic(particles, at) > 0.0));
 }
 
 // Pressures of liquid and pore [Pa].
@@ -57,10 +57,10 @@ THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics& model, const
 
 // Void left by a particle's water after complete melting, at t = 0 (physics/pore_water.hpp).
 template <class Particles>
-THAWSLIDE_HD Real void_at_start(const BandPhysics& model, const Particles& particles, std::size_t p) {
-  return model.melt_contracts ? physics::melting_void(model.phases, particles.initial_porosity(p),
-                                                      Real(1) - particles.initial_saturation(p))
-                              : Real(0);
+THAWSLIDE_HD double void_at_start(const BandPhysics& model, const Particles& particles, std::size_t p) {
+  return model.melt_contracts
+             ? physics::melting_void(model.phases, particles.initial_porosity(p), 1.0 - particles.initial_saturation(p))
+             : 0.0;
 }
 
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or undivided as published). Frozen
@@ -77,26 +77,26 @@ struct SeepageFlows {
 
   const BandPhysics& model;
   HydraulicConductivity hydraulic_conductivity;
-  Real dt, inverse_cell;
+  double dt, inverse_cell;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
                                                        Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
-    const Value zero = Real(0);
+    const Value zero = 0.0;
     const Value hydraulic = hydraulic_conductivity(particles, at);
     const Value scaling = particles.thermal_scaling.load(at);
     const Value pore_scaling = physics::pore_space_scaling(scaling, model.published_seepage);
     const Value volume = particles.volume.load(at);
     const Value storing =
         physics::storing_porosity(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
-    const auto flows = melted_before(model, particles, at) & (hydraulic > Real(0));
+    const auto flows = melted_before(model, particles, at) & (hydraulic > 0.0);
     auto& seepage = added.template of<mpm::Seepage>();
     Value in_cell = zero;
     if (any(flows)) {
       const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure);
       const Value diffusivity =
-          scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(Real(1)), hydraulic);
+          scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(1.0), hydraulic);
       const Value inverse_layer = mpm::inverse_layer<Dim>(particles, at, inverse_cell);
       const Value fraction = physics::subgrid_diffusion_fraction(diffusivity, inverse_layer, Dim, dt);
       in_cell = select(flows, (state.value[0] - particles.pore_pressure.load(at)) * fraction, zero);
@@ -107,7 +107,7 @@ struct SeepageFlows {
       }
     }
     particles.seepage_in_cell.store(at, in_cell);
-    const auto participates = model.frozen_rows == FrozenRows::sealed ? flows : hydraulic > Real(0);
+    const auto participates = model.frozen_rows == FrozenRows::sealed ? flows : hydraulic > 0.0;
     const Value pore_space = select(participates, volume / pore_scaling * storing, zero);
     seepage.value[mpm::Seepage::pore_space] = pore_space;
     seepage.value[mpm::Seepage::seeping] = select(flows, pore_space, zero);
@@ -117,7 +117,7 @@ struct SeepageFlows {
 
 // Water that leaves the body at its surface, and the heat that it carries.
 struct DrainedWater {
-  Real mass = 0, heat = 0;  // [kg], [J]
+  double mass = 0, heat = 0;  // [kg], [J]
 
   THAWSLIDE_HD DrainedWater& operator+=(const DrainedWater& part) {
     mass += part.mass;
@@ -137,7 +137,7 @@ struct PorePressure {
 
   const BandPhysics& model;
   HydraulicConductivity hydraulic_conductivity;
-  Real drained_depth;  // depth below the top within which the pressure of a permeable body is 0 [m]
+  double drained_depth;  // depth below the top within which the pressure of a permeable body is 0 [m]
   Columns columns;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -170,7 +170,7 @@ struct PorePressure {
   THAWSLIDE_HD typename At::Value melted_pressure(Particles& particles, const At& at, [[maybe_unused]] const Seen& seen,
                                                   const Mask& melted, Totals& drained) const {
     using Value = typename At::Value;
-    const Value zero = Real(0);
+    const Value zero = 0.0;
     const bool seepage = model.seepage && model.thermal_pressurization;
     const auto was_melted = melted_before(model, particles, at);
     const auto permeable = hydraulic_conductivity(particles, at) > zero;
@@ -212,7 +212,7 @@ struct PorePressure {
     if (!model.volumetric_term) {
       return pressure;
     }
-    const Value stiffness = physics::pore_stiffness(model.phases, porosity, Value(Real(1)));
+    const Value stiffness = physics::pore_stiffness(model.phases, porosity, Value(1.0));
     return select(was_melted, pressure - stiffness * particles.volume_strain.load(at), pressure);
   }
 
@@ -221,7 +221,7 @@ struct PorePressure {
   THAWSLIDE_HD typename At::Value balanced(Particles& particles, const At& at, const Mask& melted,
                                            const Mask& was_melted, const typename At::Value& seeped) const {
     using Value = typename At::Value;
-    const Value porosity = particles.porosity.load(at), gas_void = particles.pore_void.load(at), none = Real(0);
+    const Value porosity = particles.porosity.load(at), gas_void = particles.pore_void.load(at), none = 0.0;
     const Value storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
     const Value start = thawing_pressure(model, particles, at);
     if (!model.thermal_pressurization) {
@@ -230,7 +230,7 @@ struct PorePressure {
     const Value from = select(was_melted, particles.previous_temperature.load(at), Value(model.reference_temperature));
     const Value to = max(particles.temperature.load(at), Value(model.reference_temperature));
     Value gained = physics::melted_swelling(model.phases, model.water, porosity, from, to);
-    if (model.skeleton_compressibility > Real(0)) {
+    if (model.skeleton_compressibility > 0.0) {
       gained += select(was_melted, model.skeleton_compressibility * particles.load_change.load(at), none);
     }
     if (model.volumetric_term) {
@@ -272,9 +272,9 @@ struct PorePressure {
       const Value temperature = particles.temperature.load(at),
                   of_band = particles.initial_volume.load(at) / particles.thermal_scaling.load(at);
       const Value heat =
-          max(mass, Value(Real(0))) * model.phases.water_heat_capacity * (temperature - model.reference_temperature);
+          max(mass, Value(0.0)) * model.phases.water_heat_capacity * (temperature - model.reference_temperature);
       const Value capacity =
-          physics::heat_capacity(model.phases, particles.initial_porosity.load(at), Value(Real(1))) * of_band;
+          physics::heat_capacity(model.phases, particles.initial_porosity.load(at), Value(1.0)) * of_band;
       particles.heat_content.store(at, particles.heat_content.load(at) - heat / of_band);
       particles.temperature.store(at, temperature - heat / capacity);
       at.add_to(drained.heat, heat);

@@ -8,9 +8,9 @@ namespace thawslide::band {
 
 // Thickness [m], along the normal of the ground below a particle, of the layers of cells that follow the ground.
 template <int Dim, class Particles>
-THAWSLIDE_HD Real layer_along_normal(Real cell, const Particles& particles, std::uint32_t p) {
+THAWSLIDE_HD double layer_along_normal(double cell, const Particles& particles, std::uint32_t p) {
   using std::sqrt;
-  Real square = Real(1);
+  double square = 1.0;
   for (int a = 0; a + 1 < Dim; ++a) {
     square += particles.ground_slope(p, a) * particles.ground_slope(p, a);
   }
@@ -21,28 +21,28 @@ THAWSLIDE_HD Real layer_along_normal(Real cell, const Particles& particles, std:
 // of the previous band. before, joining: temperatures [C]. Melted material swells or contracts on the way to the
 // temperature of the mixture.
 template <class Particles>
-THAWSLIDE_HD void mix_water(const BandPhysics& model, Real kept, Real before, Real joining, std::uint32_t p,
+THAWSLIDE_HD void mix_water(const BandPhysics& model, double kept, double before, double joining, std::uint32_t p,
                             Particles& particles) {
-  const Real tref = model.reference_temperature, porosity = particles.porosity(p);
-  const Real to = max(particles.temperature(p), tref);
+  const double tref = model.reference_temperature, porosity = particles.porosity(p);
+  const double to = max(particles.temperature(p), tref);
   const bool was_melted = before >= tref, is_melted = particles.temperature(p) >= tref;
-  const Real start = thawing_pressure(model, particles, mpm::ScalarIndex{{p}});
-  const Real pressure = was_melted ? particles.liquid_pressure(p) : start;
-  Real mixed = start;
+  const double start = thawing_pressure(model, particles, mpm::ScalarIndex{{p}});
+  const double pressure = was_melted ? particles.liquid_pressure(p) : start;
+  double mixed = start;
   if (model.balances_water()) {
-    const Real storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
-    const auto surplus = [&](Real excess, Real gas_void, Real from) {
-      return physics::pore_surplus<Real>({excess, gas_void, Real(0)}, storage) +
+    const double storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
+    const auto surplus = [&](double excess, double gas_void, double from) {
+      return physics::pore_surplus<double>({excess, gas_void, 0.0}, storage) +
              physics::melted_swelling(model.phases, model.water, porosity, max(from, tref), to);
     };
-    const Real own = surplus(pressure, particles.pore_void(p), before);
-    const Real own_void = was_melted ? max(-own, Real(0)) : particles.pore_void(p);
-    const Real new_void = void_at_start(model, particles, p);
+    const double own = surplus(pressure, particles.pore_void(p), before);
+    const double own_void = was_melted ? max(-own, 0.0) : particles.pore_void(p);
+    const double new_void = void_at_start(model, particles, p);
     const auto filling = physics::pore_filling(physics::mixed(own, surplus(start, new_void, joining), kept), storage);
     particles.pore_void(p) = is_melted ? filling.gas_void : physics::mixed(own_void, new_void, kept);
     mixed = model.thermal_pressurization ? filling.pressure : start;
   } else if (model.thermal_pressurization) {
-    const Real coefficient = physics::undrained_pressure_coefficient(model.phases, porosity, Real(1));
+    const double coefficient = physics::undrained_pressure_coefficient(model.phases, porosity, 1.0);
     mixed = physics::mixed(pressure + coefficient * (to - max(before, tref)),
                            start + coefficient * (to - max(joining, tref)), kept);
   }
@@ -54,11 +54,11 @@ THAWSLIDE_HD void mix_water(const BandPhysics& model, Real kept, Real before, Re
 // Mixes material in its state at t = 0, with its own heat and water, into a particle's part of the band. kept: fraction
 // of the previous band in the mixture. Porosity follows temperature as in a step. has_water: pore pressures change.
 template <class Law, class Particles>
-THAWSLIDE_HD void mix_in(const BandPhysics& model, const Law& law, bool has_water, Real kept, std::uint32_t p,
+THAWSLIDE_HD void mix_in(const BandPhysics& model, const Law& law, bool has_water, double kept, std::uint32_t p,
                          Particles& particles) {
   const mpm::ScalarIndex one{{p}};
-  const Real before = particles.temperature(p);
-  const Real joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
+  const double before = particles.temperature(p);
+  const double joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
   particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);
   particles.temperature(p) = law.temperature(particles, one, particles.heat_content(p), before);
   follow_temperature(model.phases, law, particles, one, true, before);
@@ -69,15 +69,15 @@ THAWSLIDE_HD void mix_in(const BandPhysics& model, const Law& law, bool has_wate
 
 // Sets the scaling of a particle; sums the heat [J] that this adds at constant temperature and pressure.
 template <class Law, class Particles>
-THAWSLIDE_HD void rescale_particle(const BandPhysics& model, const Law& law, bool has_water, Real scaling,
-                                   std::uint32_t p, Particles& particles, Real& added) {
-  const Real old = particles.thermal_scaling(p);
+THAWSLIDE_HD void rescale_particle(const BandPhysics& model, const Law& law, bool has_water, double scaling,
+                                   std::uint32_t p, Particles& particles, double& added) {
+  const double old = particles.thermal_scaling(p);
   if (scaling == old) {
     return;
   }
   const bool mixes = model.rescaling_mixes && scaling < old;
-  const Real heat = mixes ? particles.initial_heat_content(p) : particles.heat_content(p);
-  added += particles.initial_volume(p) * heat * (Real(1) / scaling - Real(1) / old);
+  const double heat = mixes ? particles.initial_heat_content(p) : particles.heat_content(p);
+  added += particles.initial_volume(p) * heat * (1.0 / scaling - 1.0 / old);
   particles.thermal_scaling(p) = scaling;
   if (mixes) {
     mix_in(model, law, has_water, scaling / old, p, particles);

@@ -13,7 +13,7 @@ using mpm::Contact;
 
 template <int Dim>
 typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>& grid,
-                                                                      const Vector<Real, Dim>& position) const {
+                                                                      const Vector<double, Dim>& position) const {
   Lattice cell;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     cell[a] = static_cast<int>(std::floor(position[static_cast<int>(a)] * grid.inverse_cell()));
@@ -25,7 +25,7 @@ template <int Dim>
 bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
-      if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
+      if (nodes.contact(b, k)[Contact::touching] > 0.0 && !(nodes.base_state(b, k)[BaseState::area] > 0.0)) {
         return true;
       }
     }
@@ -39,18 +39,18 @@ template <int Dim>
 std::vector<typename BasalSegments<Dim>::Lattice> BasalSegments<Dim>::cells_in_contact(
     const mpm::SparseGrid<Dim>& grid, const Ground& ground, const mpm::Nodes<Dim>& nodes) const {
   constexpr std::size_t of_a_task = 32;  // blocks
-  const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
+  const double least_area = 0.25 * std::pow(grid.cell(), Dim - 1);
   const std::size_t blocks = grid.blocks().size();
   std::vector<std::vector<Lattice>> of_task((blocks + of_a_task - 1) / of_a_task);
   parallel_for(of_task.size(), 1, [&](std::size_t task) {
     for (std::size_t b = task * of_a_task; b < std::min(blocks, (task + 1) * of_a_task); ++b) {
       for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
         const auto& contact = nodes.contact(b, k);
-        if (!(contact[Contact::touching] > Real(0))) {
+        if (!(contact[Contact::touching] > 0.0)) {
           continue;
         }
-        const Vector<Real, Dim> foot = mpm::node_position(grid, b, k);
-        const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+        const Vector<double, Dim> foot = mpm::node_position(grid, b, k);
+        const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > 0.0);
         if (unseen || contact[Contact::area] > least_area * ground.width(foot.template head<Dim - 1>())) {
           of_task[task].push_back(lattice_cell(grid, foot));
         }
@@ -73,7 +73,7 @@ void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std
   constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis that varies fastest in the order of cells
   std::vector<std::uint8_t> covered(cells.size(), 0);
   parallel_for(segments_.size(), [&](std::size_t p) {
-    const Vector<Real, Dim>& position = segments_[p].position;
+    const Vector<double, Dim>& position = segments_[p].position;
     const Lattice own = lattice_cell(grid, position);
     for (int row = 0; row < mpm::power(3, Dim - 2); ++row) {
       Lattice from = own;
@@ -84,12 +84,12 @@ void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std
       --from[last];
       ++to[last];
       for (auto cell = std::lower_bound(cells.begin(), cells.end(), from); cell != cells.end() && *cell <= to; ++cell) {
-        Real furthest = 0;  // in cells
+        double furthest = 0;  // in cells
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
-          const Real in_cells = position[static_cast<int>(a)] * grid.inverse_cell();
-          furthest = std::max(furthest, std::abs(in_cells - (static_cast<Real>((*cell)[a]) + Real(0.5))));
+          const double in_cells = position[static_cast<int>(a)] * grid.inverse_cell();
+          furthest = std::max(furthest, std::abs(in_cells - (static_cast<double>((*cell)[a]) + 0.5)));
         }
-        if (furthest < Real(0.75)) {
+        if (furthest < 0.75) {
           std::atomic_ref(covered[static_cast<std::size_t>(cell - cells.begin())]).store(1, std::memory_order_relaxed);
         }
       }
@@ -107,16 +107,16 @@ void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std
 // Creates segments in the lattice cells of nodes in contact that no segment covers.
 template <int Dim>
 void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                         const NormalAtNode& node_normal, Real thickness, mpm::Nodes<Dim>& nodes) {
+                                         const NormalAtNode& node_normal, double thickness, mpm::Nodes<Dim>& nodes) {
   std::vector<Lattice> bare = cells_in_contact(grid, ground, nodes);
   leave_out_covered(grid, bare);
   const std::size_t known = segments_.size();
   for (const Lattice& cell : bare) {
-    Vector<Real, Dim - 1> middle;
+    Vector<double, Dim - 1> middle;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      middle[static_cast<int>(a)] = (static_cast<Real>(cell[a]) + Real(0.5)) * grid.cell();
+      middle[static_cast<int>(a)] = (static_cast<double>(cell[a]) + 0.5) * grid.cell();
     }
-    segments_.push_back(new_segment(middle, Vector<Real, Dim - 1>::Constant(grid.cell()), ground));
+    segments_.push_back(new_segment(middle, Vector<double, Dim - 1>::Constant(grid.cell()), ground));
     stencils_.emplace_back(grid, segments_.back().position);
     add_area(stencils_.back(), segments_.back(), nodes);
   }
@@ -133,13 +133,13 @@ void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const
 // At the edge of the sliding mass, a segment is smaller than its lattice cell.
 template <int Dim>
 void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
-                                       Real thickness, mpm::Nodes<Dim>& nodes, Segment& segment) {
-  const Real fraction = std::clamp(contact.area / segment.area, Real(0.1), Real(1));
-  add_area(stencil, segment, nodes, fraction - Real(1));
-  segment.sides *= std::pow(fraction, Real(1) / static_cast<Real>(Dim - 1));
+                                       double thickness, mpm::Nodes<Dim>& nodes, Segment& segment) {
+  const double fraction = std::clamp(contact.area / segment.area, 0.1, 1.0);
+  add_area(stencil, segment, nodes, fraction - 1.0);
+  segment.sides *= std::pow(fraction, 1.0 / static_cast<double>(Dim - 1));
   segment.area = segment.area_of_column = ground.area_of(segment.position, segment.sides);
-  update_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0),
-              contact.normal_force / segment.area, Real(0), segment);
+  update_load(contact.area > 0.0 ? contact.normal_force / contact.area : 0.0, contact.normal_force / segment.area, 0.0,
+              segment);
   start_column_of(model_, thickness, segment);
   keep_means(model_, segment);
   budget_.created_heat += segment.area * physics::heat_of(segment.column);
@@ -149,8 +149,8 @@ void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& gro
 // Adds a multiple of a segment's area to the nodes in reach.
 template <int Dim>
 void BasalSegments<Dim>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes,
-                                  Real fraction) const {
-  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
+                                  double fraction) const {
+  stencil.for_each([&](std::size_t b, std::size_t node, double weight) {
     if (nodes.base_state.contains(b)) {
       nodes.base_state.of_block(b)[node][BaseState::area] += fraction * weight * segment.area;
     }
@@ -163,11 +163,11 @@ typename BasalSegments<Dim>::InContact BasalSegments<Dim>::in_contact(const Sten
                                                                       const mpm::Nodes<Dim>& nodes,
                                                                       const Segment& segment) const {
   InContact result;
-  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
-    const Real seen = nodes.base_state(b, node)[BaseState::area];
-    if (seen > Real(0)) {
+  stencil.for_each([&](std::size_t b, std::size_t node, double weight) {
+    const double seen = nodes.base_state(b, node)[BaseState::area];
+    if (seen > 0.0) {
       const auto& contact = nodes.contact(b, node);
-      const Real fraction = weight * segment.area / seen;
+      const double fraction = weight * segment.area / seen;
       result.area += fraction * contact[Contact::area];
       result.normal_force += fraction * contact[Contact::normal_force];
     }
@@ -176,8 +176,8 @@ typename BasalSegments<Dim>::InContact BasalSegments<Dim>::in_contact(const Sten
 }
 
 template <int Dim>
-BasalSegment<Dim> BasalSegments<Dim>::new_segment(const Vector<Real, Dim - 1>& middle,
-                                                  const Vector<Real, Dim - 1>& size, const Ground& ground) {
+BasalSegment<Dim> BasalSegments<Dim>::new_segment(const Vector<double, Dim - 1>& middle,
+                                                  const Vector<double, Dim - 1>& size, const Ground& ground) {
   Segment segment;
   segment.id = next_id_++;
   segment.normal = ground.normal(middle);
@@ -190,10 +190,10 @@ BasalSegment<Dim> BasalSegments<Dim>::new_segment(const Vector<Real, Dim - 1>& m
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
   template std::array<int, Dim - 1> BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>&,                    \
-                                                                     const Vector<Real, Dim>&) const;                \
+                                                                     const Vector<double, Dim>&) const;              \
   template bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&) const;    \
   template void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>&, const Ground&, const NormalAtNode&, \
-                                                    Real, mpm::Nodes<Dim>&);
+                                                    double, mpm::Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -17,15 +17,15 @@ using physics::BandGrowth;
 
 struct ColumnsModel {
   AnyColumnModel column;
-  Real body_temperature = 0, ground_temperature = 0;  // [C]
-  Real density = 0;                                   // initial density of the body at its base [kg/m3]
-  Real load_time = 0;                                 // averaging time of N [s]
+  double body_temperature = 0, ground_temperature = 0;  // [C]
+  double density = 0;                                   // initial density of the body at its base [kg/m3]
+  double load_time = 0;                                 // averaging time of N [s]
   BandGrowth growth = BandGrowth::none;
-  Real grain_size = 0, inertial_number = 1;  // d [m], I
-  Real growth_per_slip = 0;
-  Real mixing_slip = std::numeric_limits<Real>::infinity();  // slip over which shear mixes the band [m]
-  Real rock_density = 0;                                     // rho_S [kg/m3]
-  Real largest_thickness = 0;                                // of the band: initial depth of the sliding mass [m]
+  double grain_size = 0, inertial_number = 1;  // d [m], I
+  double growth_per_slip = 0;
+  double mixing_slip = std::numeric_limits<double>::infinity();  // slip over which shear mixes the band [m]
+  double rock_density = 0;                                       // rho_S [kg/m3]
+  double largest_thickness = 0;                                  // of the band: initial depth of the sliding mass [m]
 };
 
 template <int Dim>
@@ -40,24 +40,25 @@ physics::ColumnVolumes volumes_of(const ColumnsModel& model, const BasalSegment<
 
 // P over the averaged N, 0 to 1. The basal law uses this ratio times the current N as pore pressure.
 template <int Dim>
-Real pressure_ratio(const physics::BandMeans& means, const BasalSegment<Dim>& segment) {
-  return segment.load > Real(0) ? means.pore_pressure / segment.load : Real(0);
+double pressure_ratio(const physics::BandMeans& means, const BasalSegment<Dim>& segment) {
+  return segment.load > 0.0 ? means.pore_pressure / segment.load : 0.0;
 }
 
 // Creates a column of the body's material, with a band of this thickness [m], under the segment's load. Its height is
 // limited to the flow depth above it.
 template <int Dim>
-void start_column_of(const ColumnsModel& model, Real thickness, BasalSegment<Dim>& segment);
+void start_column_of(const ColumnsModel& model, double thickness, BasalSegment<Dim>& segment);
 
 // Updates the averages of normal pressure [Pa], over the model's time, and of the corresponding flow depth [m], over
 // ten times that time or the time since the first load.
 template <int Dim>
-void follow_load(const ColumnsModel& model, Real normal_pressure, Real depth, Real dt, BasalSegment<Dim>& segment);
+void follow_load(const ColumnsModel& model, double normal_pressure, double depth, double dt,
+                 BasalSegment<Dim>& segment);
 
 // Steps the column over `duration` [s], with the pending friction heat and the current area of the segment. thickness:
 // prescribed band thickness at the end [m]. Returns the column's budget for the whole area ([J], [kg]).
 template <int Dim>
-physics::ColumnBudget step_segment(const ColumnsModel& model, Real thickness, Real duration,
+physics::ColumnBudget step_segment(const ColumnsModel& model, double thickness, double duration,
                                    BasalSegment<Dim>& segment);
 
 // Merges another segment into a segment: sums of area, heat and water, and area-weighted means of everything else.

@@ -22,7 +22,7 @@ void for_each_number(BasalSegment<Dim>& segment, const Visit& visit) {
       visit(segment.sides(a, side));
     }
   }
-  for (Real* number :
+  for (double* number :
        {&segment.area, &segment.area_of_column, &segment.slip, &segment.speed, &segment.load, &segment.depth,
         &segment.loaded_for, &segment.heat, &segment.column.thickness, &segment.column.cell_growth}) {
     visit(*number);
@@ -32,7 +32,7 @@ void for_each_number(BasalSegment<Dim>& segment, const Visit& visit) {
     visit(segment.column.temperature[k]);
   }
   for (int k = 0; k < physics::ColumnCells::slide; ++k) {
-    for (Real* numbers :
+    for (double* numbers :
          {segment.column.water, segment.column.thawing, segment.column.surplus, segment.column.pressure}) {
       visit(numbers[k]);
     }
@@ -40,7 +40,7 @@ void for_each_number(BasalSegment<Dim>& segment, const Visit& visit) {
 }
 
 // Water in pores full of melt [kg/m3].
-Real water_of_full_pores(const ColumnsModel& model) {
+double water_of_full_pores(const ColumnsModel& model) {
   return std::visit([](const auto& column) { return column.porosity * column.phases.water_density; }, model.column);
 }
 
@@ -52,8 +52,8 @@ physics::ColumnGrid grid_of(const ColumnsModel& model, const BasalSegment<Dim>& 
 // True if a cell of the band has no water left, as ice or melt.
 template <int Dim>
 bool is_dry(const BasalSegment<Dim>& segment) {
-  const Real* water = segment.column.water;
-  return std::any_of(water, water + physics::ColumnCells::band, [](Real of_cell) { return !(of_cell > Real(0)); });
+  const double* water = segment.column.water;
+  return std::any_of(water, water + physics::ColumnCells::band, [](double of_cell) { return !(of_cell > 0.0); });
 }
 
 }  // namespace
@@ -80,12 +80,11 @@ ColumnSums BasalSegments<Dim>::sums() const {
 
 template <int Dim>
 BaseMeans BasalSegments<Dim>::means() const {
-  constexpr Real wet_fraction =
-      static_cast<Real>(1e-3);  // of full pores; less water has just seeped in, and boils next
-  constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
-  const Real full = water_of_full_pores(model_);
+  constexpr double wet_fraction = 1e-3;  // of full pores; less water has just seeped in, and boils next
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const double full = water_of_full_pores(model_);
   struct Extremes {
-    Real max_temperature, max_wet_temperature, pressure_ratio;
+    double max_temperature, max_wet_temperature, pressure_ratio;
     bool dry;
   };
   std::vector<Extremes> extremes(segments_.size());
@@ -93,24 +92,24 @@ BaseMeans BasalSegments<Dim>::means() const {
     const Segment& segment = segments_[p];
     const auto grid = grid_of(model_, segment);
     Extremes& found = extremes[p];
-    found = {-celsius_to_kelvin, -celsius_to_kelvin, Real(0), is_dry(segment)};
+    found = {-celsius_to_kelvin, -celsius_to_kelvin, 0.0, is_dry(segment)};
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
-      const Real temperature = segment.column.temperature[physics::ColumnCells::ground + k];
+      const double temperature = segment.column.temperature[physics::ColumnCells::ground + k];
       found.max_temperature = std::max(found.max_temperature, temperature);
       const bool is_wet = segment.column.water[k] > wet_fraction * full * grid.slide_height(k);
       found.max_wet_temperature = is_wet ? std::max(found.max_wet_temperature, temperature) : found.max_wet_temperature;
     }
-    const Real highest =
+    const double highest =
         *std::max_element(segment.column.pressure, segment.column.pressure + physics::ColumnCells::slide);
-    found.pressure_ratio = segment.load > Real(0) ? std::min(highest / segment.load, Real(1)) : Real(0);
+    found.pressure_ratio = segment.load > 0.0 ? std::min(highest / segment.load, 1.0) : 0.0;
   });
   BaseMeans result;
-  Real area = 0, dry_area = 0, max_temperature = -celsius_to_kelvin, max_wet_temperature = max_temperature;
+  double area = 0, dry_area = 0, max_temperature = -celsius_to_kelvin, max_wet_temperature = max_temperature;
   for (std::size_t p = 0; p < segments_.size(); ++p) {
     const Segment& segment = segments_[p];
     const physics::BandMeans means = current_means(segment);
     area += segment.area;
-    dry_area += extremes[p].dry ? segment.area : Real(0);
+    dry_area += extremes[p].dry ? segment.area : 0.0;
     max_temperature = std::max(max_temperature, extremes[p].max_temperature);
     max_wet_temperature = std::max(max_wet_temperature, extremes[p].max_wet_temperature);
     result.temperature += segment.area * means.temperature;
@@ -120,11 +119,12 @@ BaseMeans BasalSegments<Dim>::means() const {
     result.thickness += segment.area * segment.column.thickness;
     result.max_pressure_ratio = std::max(result.max_pressure_ratio, extremes[p].pressure_ratio);
   }
-  result.max_temperature = area > Real(0) ? max_temperature : nothing;
-  result.max_wet_temperature = area > Real(0) ? max_wet_temperature : nothing;
-  result.dry_fraction = area > Real(0) ? dry_area / area : nothing;
-  for (Real* mean : {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
-    *mean = area > Real(0) ? *mean / area : nothing;
+  result.max_temperature = area > 0.0 ? max_temperature : nothing;
+  result.max_wet_temperature = area > 0.0 ? max_wet_temperature : nothing;
+  result.dry_fraction = area > 0.0 ? dry_area / area : nothing;
+  for (double* mean :
+       {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
+    *mean = area > 0.0 ? *mean / area : nothing;
   }
   return result;
 }
@@ -134,7 +134,7 @@ std::vector<double> BasalSegments<Dim>::state() const {
   std::vector<double> numbers{static_cast<double>(next_id_), checks_gaps_ ? 1.0 : 0.0,
                               static_cast<double>(segments_.size())};
   ColumnLedger budget = budget_;
-  const auto add = [&](const Real& number) { numbers.push_back(static_cast<double>(number)); };
+  const auto add = [&](const double& number) { numbers.push_back(number); };
   budget.for_each(add);
   for (Segment segment : segments_) {
     numbers.push_back(static_cast<double>(segment.id));
@@ -148,13 +148,13 @@ template <int Dim>
 void BasalSegments<Dim>::restore(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "band columns");
   std::size_t of_ledger = 0, of_segment = 2;  // number of state entries
-  budget_.for_each([&](Real&) { ++of_ledger; });
+  budget_.for_each([&](double&) { ++of_ledger; });
   Segment any;
-  for_each_number(any, [&](Real&) { ++of_segment; });
+  for_each_number(any, [&](double&) { ++of_segment; });
   next_id_ = state.whole(largest_whole);
   checks_gaps_ = state.next() != 0.0;
   segments_.assign(state.count(of_segment, of_ledger), Segment{});
-  const auto set = [&](Real& number) { number = static_cast<Real>(state.next()); };
+  const auto set = [&](double& number) { number = state.next(); };
   budget_.for_each(set);
   for (Segment& segment : segments_) {
     segment.id = state.whole(next_id_);

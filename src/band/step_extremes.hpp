@@ -53,14 +53,14 @@ struct StepExtremes {
 
 // Free gaps by material (physics/tension_gap.hpp).
 struct FreeGaps {
-  const Real* of_material;  // 1: free; 0: gaps bear stress
+  const double* of_material;  // 1: free; 0: gaps bear stress
 
   // Density of the particle at which elastic stiffness acts [kg/m3].
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD Real elastic_density(const Particles& particles, std::uint32_t p) const {
-    const Real density = particles.mass(p) / particles.volume(p);
-    const bool is_free = of_material[static_cast<std::size_t>(particles.material(p))] > Real(0);
-    return is_free && particles.gap.is_kept() ? physics::density_with_gap_closed(density, Real(particles.gap(p)))
+  [[nodiscard]] THAWSLIDE_HD double elastic_density(const Particles& particles, std::uint32_t p) const {
+    const double density = particles.mass(p) / particles.volume(p);
+    const bool is_free = of_material[static_cast<std::size_t>(particles.material(p))] > 0.0;
+    return is_free && particles.gap.is_kept() ? physics::density_with_gap_closed(density, double(particles.gap(p)))
                                               : density;
   }
 };
@@ -70,27 +70,26 @@ THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics& model, const H
                                                const FreeGaps& free_gaps, const Particles& particles, std::uint32_t p) {
   using std::sqrt;
   const std::int64_t id = particles.id(p);
-  const Real porosity = particles.initial_porosity(p), saturation = particles.liquid_saturation(p);
-  const Real storing = physics::storing_porosity(model.phases, porosity, model.skeleton_compressibility);
+  const double porosity = particles.initial_porosity(p), saturation = particles.liquid_saturation(p);
+  const double storing = physics::storing_porosity(model.phases, porosity, model.skeleton_compressibility);
   double speed2 = 0.0;
   for (int a = 0; a < Dim; ++a) {
-    speed2 += static_cast<double>(particles.velocity(p, a) * particles.velocity(p, a));
+    speed2 += particles.velocity(p, a) * particles.velocity(p, a);
   }
   StepExtremes found;
-  found.density = {static_cast<double>(particles.mass(p) / particles.volume(p)), id};
-  found.elastic_density = {static_cast<double>(free_gaps.elastic_density(particles, p)), id};
+  found.density = {particles.mass(p) / particles.volume(p), id};
+  found.elastic_density = {free_gaps.elastic_density(particles, p), id};
   found.speed.raise({sqrt(speed2), id});
-  found.diffusivity.raise({static_cast<double>(physics::conductivity(model.phases, porosity, saturation) /
-                                               physics::heat_capacity(model.phases, porosity, saturation)),
+  found.diffusivity.raise({physics::conductivity(model.phases, porosity, saturation) /
+                               physics::heat_capacity(model.phases, porosity, saturation),
                            id});
-  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(model.phases, storing, Real(1),
-                                                                          hydraulic(particles, mpm::ScalarIndex{{p}}))),
-                       id});
-  found.pore_stiffness = static_cast<double>(physics::pore_stiffness(model.phases, storing, Real(1)));
+  found.seepage.raise(
+      {physics::hydraulic_diffusivity(model.phases, storing, 1.0, hydraulic(particles, mpm::ScalarIndex{{p}})), id});
+  found.pore_stiffness = physics::pore_stiffness(model.phases, storing, 1.0);
   if (particles.ground_slope.is_kept()) {
     double slope2 = 0.0;
     for (int a = 0; a + 1 < Dim; ++a) {
-      slope2 += static_cast<double>(particles.ground_slope(p, a) * particles.ground_slope(p, a));
+      slope2 += particles.ground_slope(p, a) * particles.ground_slope(p, a);
     }
     found.slope = sqrt(slope2);
   }

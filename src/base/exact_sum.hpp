@@ -11,20 +11,20 @@ namespace thawslide {
 class ExactSum {
  public:
   ExactSum() = default;
-  THAWSLIDE_HD ExactSum(Real number) : sum_(number) {}  // NOLINT(google-explicit-constructor)
+  THAWSLIDE_HD ExactSum(double number) : sum_(number) {}  // NOLINT(google-explicit-constructor)
 
-  THAWSLIDE_HD operator Real() const { return sum_; }  // NOLINT(google-explicit-constructor)
+  THAWSLIDE_HD operator double() const { return sum_; }  // NOLINT(google-explicit-constructor)
 
   THAWSLIDE_HD ExactSum& operator+=(const ExactSum& part) {
-    const Real sum = sum_ + part.sum_, of_part = sum - sum_;
-    const Real rest = (sum_ - (sum - of_part)) + (part.sum_ - of_part) + (rest_ + part.rest_);
+    const double sum = sum_ + part.sum_, of_part = sum - sum_;
+    const double rest = (sum_ - (sum - of_part)) + (part.sum_ - of_part) + (rest_ + part.rest_);
     sum_ = sum + rest;
     rest_ = rest - (sum_ - sum);
     return *this;
   }
 
  private:
-  Real sum_ = 0, rest_ = 0;
+  double sum_ = 0, rest_ = 0;
 };
 
 }  // namespace thawslide

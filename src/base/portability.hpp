@@ -1,4 +1,4 @@
-// Number type, function attributes, small constants and prefetching for all modules.
+// Function attributes, small constants and prefetching for all modules.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +29,6 @@
 
 namespace thawslide {
 
-// Number type of the step.
-using Real = double;
-
 // Prefetches the memory a number of bytes ahead. The address need not be valid, hence an integer instead of a pointer.
 inline void prefetch(const void* point, std::size_t bytes_on) {
   const auto there = reinterpret_cast<std::uintptr_t>(point) + bytes_on;
@@ -39,11 +36,11 @@ inline void prefetch(const void* point, std::size_t bytes_on) {
 }
 
 // Relative tolerance: smaller differences count as round-off.
-inline constexpr Real round_off = 1e-9;
+inline constexpr double round_off = 1e-9;
 
 // Absolute temperature of 0 degrees Celsius [K].
-inline constexpr Real celsius_to_kelvin = 273.15;
+inline constexpr double celsius_to_kelvin = 273.15;
 
-inline constexpr Real pi = 3.14159265358979323846;
+inline constexpr double pi = 3.14159265358979323846;
 
 }  // namespace thawslide

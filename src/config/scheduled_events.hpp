@@ -14,7 +14,7 @@ inline double cohesion_loss_time(const GroundStrength& ground) {
   return std::visit(
       [](const auto& law) {
         if constexpr (requires { law.loss_time; }) {
-          return law.initial == law.residual ? 0.0 : static_cast<double>(law.loss_time);
+          return law.initial == law.residual ? 0.0 : law.loss_time;
         } else {
           return 0.0;
         }

@@ -20,11 +20,11 @@ struct PackColumns {
 
   NodeViews<Dim> nodes;
   const std::uint32_t* blocks;
-  Real* records;
+  double* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t node = blocks[k / block_nodes] * block_nodes + k % block_nodes;
-    Real* record = records + k * column_record_size<Dim>;
+    double* record = records + k * column_record_size<Dim>;
     for (std::size_t c = 0; c < of_contact; ++c) {
       record[c] = nodes.contact_at(node)[c];
     }
@@ -51,7 +51,7 @@ class BandColumns {
   }
 
   // Records of BaseState by candidate node; null without band columns.
-  [[nodiscard]] const Real* states() {
+  [[nodiscard]] const double* states() {
     if (!exist()) {
       return nullptr;
     }
@@ -72,7 +72,7 @@ class BandColumns {
   Backend& backend_;
   HostColumns cpu_;
   Array<std::uint32_t, Backend> queried_{backend_};
-  Array<Real, Backend> states_{backend_}, records_{backend_};
+  Array<double, Backend> states_{backend_}, records_{backend_};
 };
 
 }  // namespace thawslide::device

@@ -45,29 +45,29 @@ class BandStages {
                                            passes_.model.heat_faces.any(), passes_.model.cell});
   }
 
-  void rescale(Real time) {
-    const Real thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
-    passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
-    if (passes_.model.mapping.has_ground && thickness > Real(0)) {
+  void rescale(double time) {
+    const double thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
+    passes_.backend.for_each(1, Fill<double>{&sums_->band_rescale, 0.0});
+    if (passes_.model.mapping.has_ground && thickness > 0.0) {
       rescale_by(ScalingBySlope<Dim>{cell, thickness});
-      scaling_in_force_ = Real(0);  // reset, because the scaling varies in space
+      scaling_in_force_ = 0.0;  // reset, because the scaling varies in space
       return;
     }
-    const Real scaling = thickness > Real(0) ? cell / thickness : Real(1);
+    const double scaling = thickness > 0.0 ? cell / thickness : 1.0;
     if (!passes_.model.scales_all || scaling != scaling_in_force_) {
       scaling_in_force_ = scaling;
       rescale_by(OneScaling{scaling});
     }
   }
 
-  void conduct_heat(Real dt) {
+  void conduct_heat(double dt) {
     average_seeping_water();
     if (passes_.model.heat) {
       std::visit([&](const auto& content) { conduct_heat_by(content, dt); }, passes_.model.heat_content);
       passes_.model.starts = false;
     }
   }
-  void drain_pore_pressure(Real dt) {
+  void drain_pore_pressure(double dt) {
     columns_.sum(passes_.cells.tables(), passes_.particles.view());
     if (passes_.model.band.needs_normal_load()) {
       passes_.run(passes_.linear(), AddPressureLoad<Dim>{columns_.loading(passes_.cells.tables())});
@@ -76,7 +76,7 @@ class BandStages {
       seep(dt);
       update_pressure<true>();
     } else {
-      passes_.backend.for_each(1, Fill<Real>{&sums_->vented, Real(0)});
+      passes_.backend.for_each(1, Fill<double>{&sums_->vented, 0.0});
       update_pressure<false>();
     }
   }
@@ -95,9 +95,9 @@ class BandStages {
         passes_.model.heat_content);
   }
   template <class Content>
-  void conduct_heat_by(const Content& content, Real dt) {
+  void conduct_heat_by(const Content& content, double dt) {
     passes_.run(passes_.linear(), HeatFlows<Dim, Content>{content, passes_.model.band, hydraulic(), dt,
-                                                          Real(1) / passes_.model.cell, !passes_.model.starts});
+                                                          1.0 / passes_.model.cell, !passes_.model.starts});
     passes_.template sum<mpm::HeatRates, void>(AllTiles{});
     solve_rates(nullptr, dt);
     passes_.marks.mark_tiles(passes_.cells.tables(),
@@ -112,7 +112,7 @@ class BandStages {
     passes_.run(passes_.momentum(passes_.marks.tiles()), band::RedistributeUnreachedHeat<Dim>{dt});
     passes_.run(passes_.linear(), UpdateHeat<Dim, Content>{content, passes_.model.band, dt});
   }
-  const band::NodalHeat* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
+  const band::NodalHeat* solve_rates(const std::uint8_t* changing_blocks, double dt) {
     const std::size_t blocks = passes_.cells.tables().blocks;
     const SolveRates<Dim> solve{passes_.views(),
                                 passes_.template of<mpm::HeatRates>().data(),
@@ -152,14 +152,14 @@ class BandStages {
                                                      passes_.marks.blocks()});
   }
 
-  void seep(Real dt) {
+  void seep(double dt) {
     passes_.run(passes_.linear(passes_.marks.tiles()),
-                SeepageFlows<Dim>{passes_.model.band, hydraulic(), dt, Real(1) / passes_.model.cell});
+                SeepageFlows<Dim>{passes_.model.band, hydraulic(), dt, 1.0 / passes_.model.cell});
     passes_.template sum<mpm::Seepage, void>(passes_.marks.tiles());
     const std::size_t blocks = passes_.cells.tables().blocks;
-    const Real* absorbed = block_pass<Dim>(
+    const double* absorbed = block_pass<Dim>(
         passes_.backend, blocks, SolveSeepage<Dim>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
-        passes_.memory.template sums<Real>(partial_sum_count(blocks)));
+        passes_.memory.template sums<double>(partial_sum_count(blocks)));
     passes_.backend.for_each(1, KeepVented{absorbed, passes_.model.band.phases, &sums_->vented});
   }
   template <bool Seeps>
@@ -179,8 +179,8 @@ class BandStages {
   Passes& passes_;
   StepSums<Dim>* sums_;
   Columns<Backend, Dim> columns_;
-  Array<Real, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
-  Real scaling_in_force_ = 0;
+  Array<double, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
+  double scaling_in_force_ = 0;
 };
 
 }  // namespace thawslide::device

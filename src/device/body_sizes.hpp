@@ -12,11 +12,11 @@ template <class Backend>
 class BodySizes {
  public:
   // unit: unit of half_sizes, as a factor.
-  BodySizes(Backend& backend, const std::vector<Real>& half_sizes, Real unit) : half_(backend), inverse_(backend) {
-    std::vector<Real> half, inverse;
-    for (const Real number : half_sizes) {
+  BodySizes(Backend& backend, const std::vector<double>& half_sizes, double unit) : half_(backend), inverse_(backend) {
+    std::vector<double> half, inverse;
+    for (const double number : half_sizes) {
       half.push_back(unit * number);
-      inverse.push_back(Real(1) / half.back());
+      inverse.push_back(1.0 / half.back());
     }
     half_.set(half);
     inverse_.set(inverse);
@@ -25,7 +25,7 @@ class BodySizes {
   [[nodiscard]] mpm::SizesOfBodies view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
 
  private:
-  Array<Real, Backend> half_, inverse_;
+  Array<double, Backend> half_, inverse_;
 };
 
 }  // namespace thawslide::device

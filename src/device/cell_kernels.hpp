@@ -46,7 +46,7 @@ template <int Dim>
 struct FindKey {
   mpm::ParticleView<Dim> particles;
   const std::uint32_t* by_id;
-  Real inverse_cell;
+  double inverse_cell;
   mpm::Mapping mapping;
   std::uint64_t* keys;
   std::uint32_t* any_changed;
@@ -56,9 +56,9 @@ struct FindKey {
     const std::uint32_t particle = by_id[k];
     typename T::Index node{}, tile{};
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real in_cells =
+      const double in_cells =
           mapping.template coordinate<Dim>(particles, mpm::ScalarIndex{{particle}}, static_cast<int>(a)) * inverse_cell;
-      node[a] = static_cast<int>(std::floor(in_cells + Real(0.5)));
+      node[a] = static_cast<int>(std::floor(in_cells + 0.5));
     }
     int local = 0;
     T::split(node, tile, local);

@@ -18,8 +18,8 @@ class Cells {
 
  public:
   // cell: mesh size [m].
-  Cells(Backend& backend, Real cell, const mpm::Mapping& mapping)
-      : backend_(backend), inverse_cell_(Real(1) / cell), mapping_(mapping) {}
+  Cells(Backend& backend, double cell, const mpm::Mapping& mapping)
+      : backend_(backend), inverse_cell_(1.0 / cell), mapping_(mapping) {}
 
   // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
   void update(const mpm::ParticleView<Dim>& particles, const std::uint32_t* by_id, std::size_t count) {
@@ -102,7 +102,7 @@ class Cells {
   }
 
   Backend& backend_;
-  Real inverse_cell_;
+  double inverse_cell_;
   mpm::Mapping mapping_;
   Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};

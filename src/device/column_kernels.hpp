@@ -49,7 +49,7 @@ template <int Dim>
 struct ColumnPart {
   band::ColumnMass column_mass;
   band::Extent<Dim> extent;
-  Real mass = 0;
+  double mass = 0;
 
   THAWSLIDE_HD ColumnPart& operator+=(const ColumnPart& part) {
     column_mass += part.column_mass;
@@ -68,13 +68,13 @@ struct SumInTile {
   TileTables<Dim> tables;
   mpm::ParticleView<Dim> particles;
   mpm::SizesOfBodies sizes;  // half sizes of particles [m]
-  Real cell;
+  double cell;
   mpm::Mapping mapping;
   ColumnPart<Dim>* parts;  // by tile and place
 
   struct Box {
-    Real volume, mass, top;
-    band::Overlaps<Dim, Real> along;
+    double volume, mass, top;
+    band::Overlaps<Dim, double> along;
   };
   static constexpr std::size_t bytes = at_a_time * sizeof(Box);
 
@@ -98,22 +98,22 @@ struct SumInTile {
  private:
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::size_t tile, std::uint32_t particle) const {
     const mpm::ScalarIndex at{{particle}};
-    return {particles.volume(particle), particles.mass(particle),
-            mapping.template coordinate<Dim>(particles, at, Dim - 1) + sizes.of(particles, at).half,
-            band::overlaps<Dim>(band::first_cell_of<Dim>(tables.tile_keys[tile]), cell, Real(1) / cell, sizes,
-                                particles, at)};
+    return {
+        particles.volume(particle), particles.mass(particle),
+        mapping.template coordinate<Dim>(particles, at, Dim - 1) + sizes.of(particles, at).half,
+        band::overlaps<Dim>(band::first_cell_of<Dim>(tables.tile_keys[tile]), cell, 1.0 / cell, sizes, particles, at)};
   }
 
   [[nodiscard]] THAWSLIDE_HD static ColumnPart<Dim> sum_boxes(const Box* boxes, std::size_t count, std::size_t index,
                                                               ColumnPart<Dim> sum) {
     for (std::size_t k = 0; k < count; ++k) {
       const Box& box = boxes[k];
-      band::for_columns<Dim>(box.along, [&](const auto& side, Real at, Real fraction) {
-        if (!(fraction > Real(0)) || static_cast<std::size_t>(at) != index) {
+      band::for_columns<Dim>(box.along, [&](const auto& side, double at, double fraction) {
+        if (!(fraction > 0.0) || static_cast<std::size_t>(at) != index) {
           return;
         }
-        const Real volume = fraction * box.volume;
-        if (volume > Real(0)) {
+        const double volume = fraction * box.volume;
+        if (volume > 0.0) {
           sum.column_mass += {volume, box.top};
         }
         sum.extent += band::extent_in_column<Dim>(box.along, side, 0);
@@ -147,9 +147,9 @@ template <int Dim>
 struct FinishColumns {
   const ColumnPart<Dim>* sums;
   const std::int32_t* adjacent;
-  const Real* normal_gravity;  // null: load is not required
-  Real cell;
-  Real *thickness, *top, *load_per_depth;
+  const double* normal_gravity;  // null: load is not required
+  double cell;
+  double *thickness, *top, *load_per_depth;
 
   THAWSLIDE_HD void operator()(std::size_t column) const {
     const ColumnPart<Dim> sum = sums[column];
@@ -161,9 +161,8 @@ struct FinishColumns {
     thickness[column] = band::thickness_of(sum.column_mass, band::footprint_of<Dim>(cell, at_edge, sum.extent, filled));
     top[column] = sum.column_mass.top;
     if (normal_gravity != nullptr) {
-      load_per_depth[column] = sum.column_mass.is_present()
-                                   ? band::load_per_depth(sum.column_mass, sum.mass, normal_gravity[column])
-                                   : Real(0);
+      load_per_depth[column] =
+          sum.column_mass.is_present() ? band::load_per_depth(sum.column_mass, sum.mass, normal_gravity[column]) : 0.0;
     }
   }
 };
@@ -176,15 +175,15 @@ struct ColumnsByTile {
   const std::uint64_t* tile_keys;
   const std::int32_t* column;  // by tile and place
   mpm::SizesOfBodies sizes;
-  Real cell;
+  double cell;
   mpm::Mapping mapping;
-  const Real *thickness, *top, *cosine;
+  const double *thickness, *top, *cosine;
 
   [[nodiscard]] THAWSLIDE_HD OfTile of_tile(std::size_t tile) const {
     const std::int32_t* seen = column + tile * band::columns_per_tile<Dim>;
     return {band::first_cell_of<Dim>(tile_keys[tile]),
             cell,
-            Real(1) / cell,
+            1.0 / cell,
             sizes,
             {thickness, seen},
             {top, seen},

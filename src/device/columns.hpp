@@ -23,13 +23,13 @@ class Columns {
  public:
   // half_sizes: of particles, by body, in cells. An empty slope_cosine means level ground; an empty normal_gravity
   // means that no loads are computed.
-  Columns(Backend& backend, Real cell, const mpm::Mapping& mapping, const std::vector<Real>& half_sizes,
+  Columns(Backend& backend, double cell, const mpm::Mapping& mapping, const std::vector<double>& half_sizes,
           band::OfPosition<Dim> slope_cosine, band::OfPosition<Dim> normal_gravity)
       : backend_(backend),
         cell_(cell),
         mapping_(mapping),
-        slope_cosine_{std::move(slope_cosine), {}, Array<Real, Backend>(backend)},
-        normal_gravity_{std::move(normal_gravity), {}, Array<Real, Backend>(backend)},
+        slope_cosine_{std::move(slope_cosine), {}, Array<double, Backend>(backend)},
+        normal_gravity_{std::move(normal_gravity), {}, Array<double, Backend>(backend)},
         sizes_(backend, half_sizes, cell) {}
 
   // Call after tiles have changed.
@@ -47,7 +47,7 @@ class Columns {
     adjacent_.resize(keys_.size() * band::column_sides<Dim>);
     backend_.for_each(adjacent_.size(), FindNeighbourColumns<Dim>{keys_.data(), keys_.size(), adjacent_.data()});
     sums_.resize(keys_.size());
-    for (Array<Real, Backend>* numbers : {&thickness_, &top_, &load_per_depth_}) {
+    for (Array<double, Backend>* numbers : {&thickness_, &top_, &load_per_depth_}) {
       numbers->resize(keys_.size());
     }
     query_terrain();
@@ -79,15 +79,15 @@ class Columns {
   // Terrain query at columns and its results.
   struct ColumnQuery {
     band::OfPosition<Dim> function;
-    std::vector<Real> known;
-    Array<Real, Backend> values;
+    std::vector<double> known;
+    Array<double, Backend> values;
   };
 
   void query_terrain() {
     const std::vector<std::uint64_t> keys = keys_.get();
     const std::vector<std::int32_t> before = index_map(known_keys_, keys);
     for (ColumnQuery* query : {&slope_cosine_, &normal_gravity_}) {
-      std::vector<Real> values(keys.size(), Real(1));
+      std::vector<double> values(keys.size(), 1.0);
       for (std::size_t k = 0; query->function && k < keys.size(); ++k) {
         values[k] = before[k] != absent ? query->known[static_cast<std::size_t>(before[k])]
                                         : query->function(band::middle_of_column<Dim>(keys[k], cell_));
@@ -98,13 +98,14 @@ class Columns {
     known_keys_ = keys;
   }
 
-  [[nodiscard]] ColumnsByTile<Dim> seen_with(const TileTables<Dim>& tables, const Array<Real, Backend>& cosine) const {
+  [[nodiscard]] ColumnsByTile<Dim> seen_with(const TileTables<Dim>& tables,
+                                             const Array<double, Backend>& cosine) const {
     return {tables.tile_keys, column_.data(),    sizes_.view(), cell_,
             mapping_,         thickness_.data(), top_.data(),   cosine.data()};
   }
 
   Backend& backend_;
-  Real cell_;
+  double cell_;
   mpm::Mapping mapping_;
   ColumnQuery slope_cosine_, normal_gravity_;
   std::vector<std::uint64_t> known_keys_;  // of the columns
@@ -114,7 +115,7 @@ class Columns {
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
   Array<std::int32_t, Backend> column_{backend_}, adjacent_{backend_};
   Array<Part, Backend> parts_{backend_}, sums_{backend_};
-  Array<Real, Backend> thickness_{backend_}, top_{backend_}, load_per_depth_{backend_};
+  Array<double, Backend> thickness_{backend_}, top_{backend_}, load_per_depth_{backend_};
 };
 
 }  // namespace thawslide::device

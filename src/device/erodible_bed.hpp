@@ -29,7 +29,7 @@ struct CoverBed {
   mpm::ParticleView<Dim> particles;
   mpm::SizesOfBodies sizes;
   SeesCandidates<Dim> sees;
-  Real cell;
+  double cell;
   const std::uint32_t* stack_of_block;
   std::uint8_t* covered;  // by stack, column and part
 
@@ -43,7 +43,7 @@ struct CoverBed {
 
  private:
   THAWSLIDE_HD void cover(std::size_t tile, std::uint32_t particle) const {
-    const Real half = sizes.half[sizes.is_uniform ? 0 : static_cast<std::size_t>(particles.body(particle))];
+    const double half = sizes.half[sizes.is_uniform ? 0 : static_cast<std::size_t>(particles.body(particle))];
     std::array<terrain::PartsCovered, 2> along{};  // in 2D, the second axis is one part wide
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
       along[a] = terrain::parts_covered(particles.position(particle, static_cast<int>(a)), half, cell);
@@ -92,19 +92,19 @@ template <int Dim>
 struct PackLoad {
   NodeViews<Dim> nodes;
   const std::uint32_t* candidates;
-  Real* loads;
+  double* loads;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { loads[k] = nodes.base_at(candidates[k])[mpm::BaseLayout::load]; }
 };
 template <int Dim>
 struct OfferBed {
-  const Real* available;
-  Real* records;
+  const double* available;
+  double* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    Real* record = records + k * bed_record_size<Dim>;
+    double* record = records + k * bed_record_size<Dim>;
     for (std::size_t c = 0; c < bed_record_size<Dim>; ++c) {
-      record[c] = Real(0);
+      record[c] = 0.0;
     }
     record[mpm::BedLayout<Dim>::available] = available[k];
   }
@@ -113,12 +113,12 @@ template <int Dim>
 struct PackPressure {
   NodeViews<Dim> nodes;
   const std::uint32_t* candidates;
-  Real* records;
+  double* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    Real* record = records + k * bed_record_size<Dim>;
-    const Real* contact = nodes.contact_at(candidates[k]);
-    if (record[mpm::BedLayout<Dim>::entrained] > Real(0)) {
+    double* record = records + k * bed_record_size<Dim>;
+    const double* contact = nodes.contact_at(candidates[k]);
+    if (record[mpm::BedLayout<Dim>::entrained] > 0.0) {
       record[mpm::BedLayout<Dim>::size] = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
     }
   }
@@ -128,10 +128,10 @@ struct PackPressure {
 template <int Dim>
 struct BedBelowNodes {
   terrain::BedMaterial material;
-  Real* records;
+  double* records;
 
-  [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim> below(std::size_t candidate, Real area, Real strength, Real dt,
-                                                              Real mass) const {
+  [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim> below(std::size_t candidate, double area, double strength,
+                                                              double dt, double mass) const {
     return {&material, records + candidate * bed_record_size<Dim>, area, strength, dt, mass};
   }
 };
@@ -165,7 +165,7 @@ class ErodibleBed {
 
   // Sets the bed mass available to each candidate node. Call after the basal law has been evaluated.
   void distribute(const TileTables<Dim>& tables, const mpm::ParticleView<Dim>& particles,
-                  const mpm::SizesOfBodies& sizes, const Ground<Backend, Dim>& ground, Real cell,
+                  const mpm::SizesOfBodies& sizes, const Ground<Backend, Dim>& ground, double cell,
                   const NodeViews<Dim>& nodes) {
     constexpr std::size_t threads = 128;
     backend_.for_groups(tables.tiles, threads, 0,
@@ -190,7 +190,7 @@ class ErodibleBed {
   HostBed<Dim> cpu_;
   Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
   Array<std::uint8_t, Backend> covered_{backend_};
-  Array<Real, Backend> loads_{backend_}, available_{backend_}, records_{backend_};
+  Array<double, Backend> loads_{backend_}, available_{backend_}, records_{backend_};
 };
 
 }  // namespace thawslide::device

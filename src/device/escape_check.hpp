@@ -22,7 +22,7 @@ struct CountEscaped {
 
   const std::int32_t* blocks_about_tile;
   const std::uint8_t* partly_unknown;  // by block; null: no ground, or ground known everywhere
-  Vector<Real, Dim> extent;            // of the domain [m]
+  Vector<double, Dim> extent;          // of the domain [m]
   bool all_escaped = false;            // all particles of the tile count as escaped
 
   [[nodiscard]] THAWSLIDE_HD CountEscaped in_tile(std::size_t tile) const {
@@ -37,8 +37,8 @@ struct CountEscaped {
   [[nodiscard]] THAWSLIDE_HD bool escapes(const Particles& particles, std::uint32_t p) const {
     bool has_escaped = all_escaped;
     for (int a = 0; a < Dim; ++a) {
-      const Real position = particles.position(p, a);
-      has_escaped = has_escaped || position < Real(0) || position > extent[a];
+      const double position = particles.position(p, a);
+      has_escaped = has_escaped || position < 0.0 || position > extent[a];
     }
     return has_escaped;
   }
@@ -75,7 +75,7 @@ struct ListEscaped {
   mpm::ParticleView<Dim> particles;
   const std::uint32_t* marks;
   const std::uint32_t* marked_before;
-  Vector<Real, Dim>* indices;
+  Vector<double, Dim>* indices;
 
   THAWSLIDE_HD void operator()(std::size_t p) const {
     if (marks[p] != 0) {
@@ -93,7 +93,7 @@ class EscapeCheck {
 
   // Positions [m] of the escaped particles. escapes: their number.
   template <class Passes>
-  std::vector<Vector<Real, Dim>> indices(Passes& passes, const CountEscaped<Dim>& count, std::size_t escapes) {
+  std::vector<Vector<double, Dim>> indices(Passes& passes, const CountEscaped<Dim>& count, std::size_t escapes) {
     const std::size_t particles = passes.particles.size();
     marks_.resize(particles);
     marked_before_.resize(particles);
@@ -107,7 +107,7 @@ class EscapeCheck {
 
  private:
   Array<std::uint32_t, Backend> marks_, marked_before_;
-  Array<Vector<Real, Dim>, Backend> places_;
+  Array<Vector<double, Dim>, Backend> places_;
 };
 
 }  // namespace thawslide::device

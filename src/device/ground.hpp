@@ -23,7 +23,7 @@ struct CopyGround {
   std::size_t before;
   const AtNode *known_before, *queried;
   AtNode* known;
-  Real* records;
+  double* records;
   std::uint32_t* is_candidate;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -33,9 +33,9 @@ struct CopyGround {
     const AtNode* from = block < before ? known_before + block * nodes : queried + (block - before) * nodes;
     const AtNode node = from[k % nodes];
     known[k] = node;
-    Real* record = records + k * size;
+    double* record = records + k * size;
     for (std::size_t c = 0; c < size; ++c) {
-      record[c] = Real(0);
+      record[c] = 0.0;
     }
     record[mpm::Planes::offset] = node.plane;
     mpm::set_vector<Dim>(record, mpm::Planes::normal, node.plane_scale * node.normal);
@@ -90,7 +90,7 @@ class Ground {
   }
 
   [[nodiscard]] const AtNode* known() const { return known_.data(); }
-  [[nodiscard]] const Real* records() const { return records_.data(); }
+  [[nodiscard]] const double* records() const { return records_.data(); }
   // Candidate nodes, and the index of each node among them (absent for others).
   [[nodiscard]] const std::uint32_t* candidates() const { return candidates_.data(); }
   [[nodiscard]] std::vector<std::uint32_t> list_candidates() const { return candidates_.get(); }
@@ -143,7 +143,7 @@ class Ground {
   std::vector<std::uint8_t> is_partly_unknown_;  // by block
   Array<std::int32_t, Backend> block_before_{backend_};
   Array<AtNode, Backend> queried_{backend_}, known_before_{backend_}, known_{backend_};
-  Array<Real, Backend> records_{backend_};
+  Array<double, Backend> records_{backend_};
   Array<std::uint32_t, Backend> is_candidate_{backend_}, candidates_before_{backend_}, candidates_{backend_};
   Array<std::int32_t, Backend> number_{backend_};
   Array<std::uint8_t, Backend> partly_unknown_{backend_};

@@ -11,21 +11,21 @@ namespace thawslide::device {
 
 // Scaling xi of particles in the band: uniform, or from the thickness of the layer of cells along its normal.
 struct OneScaling {
-  Real scaling;
+  double scaling;
 
   [[nodiscard]] THAWSLIDE_HD OneScaling in_tile(std::size_t /*tile*/) const { return *this; }
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& /*particles*/, std::uint32_t /*p*/) const {
+  [[nodiscard]] THAWSLIDE_HD double of(const Particles& /*particles*/, std::uint32_t /*p*/) const {
     return scaling;
   }
 };
 template <int Dim>
 struct ScalingBySlope {
-  Real cell, thickness;  // of the grid and of the band [m]
+  double cell, thickness;  // of the grid and of the band [m]
 
   [[nodiscard]] THAWSLIDE_HD ScalingBySlope in_tile(std::size_t /*tile*/) const { return *this; }
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& particles, std::uint32_t p) const {
+  [[nodiscard]] THAWSLIDE_HD double of(const Particles& particles, std::uint32_t p) const {
     return band::layer_along_normal<Dim>(cell, particles, p) / thickness;
   }
 };
@@ -35,7 +35,7 @@ struct RescaleBand {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Totals = Real;
+  using Totals = double;
 
   Content content;
   band::BandPhysics physics;
@@ -48,10 +48,10 @@ struct RescaleBand {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Real& added_heat) const {
+                               double& added_heat) const {
     const std::uint32_t p = at.particle[0];
     const Law law{content};
-    const Real scaling = scales_all || particles.in_band(p) != 0 ? in_band.of(particles, p) : Real(1);
+    const double scaling = scales_all || particles.in_band(p) != 0 ? in_band.of(particles, p) : 1.0;
     band::rescale_particle(physics, law, has_water, scaling, p, particles, added_heat);
   }
 };
@@ -67,7 +67,7 @@ struct HeatFlows {
   Content content;
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
-  Real dt, inverse_cell;
+  double dt, inverse_cell;
   bool subgrid;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -88,7 +88,7 @@ struct SecantCapacity {
   using Totals = typename Kernel::Totals;
 
   Content content;
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
@@ -109,7 +109,7 @@ struct UpdateHeat {
 
   Content content;
   band::BandPhysics physics;
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
@@ -129,33 +129,33 @@ struct SolveRates {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   NodeViews<Dim> nodes;
-  const Real *tangent_rates, *secant_rates;
+  const double *tangent_rates, *secant_rates;
   const std::uint8_t* changing_blocks;  // null: none yet
-  Real* unreached_heat;
-  Real dt;
+  double* unreached_heat;
+  double dt;
   const std::uint64_t* block_keys;
   band::HeatFaces<Dim> faces;
   bool has_faces, first_step;
-  Real cell;
+  double cell;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
     using mpm::HeatRates;
     constexpr std::size_t size = mpm::record_size(HeatRates::size<Dim>);
     constexpr std::size_t unreached_size = mpm::record_size(mpm::UnreachedHeat::size<Dim>);
     const bool changes = changing_blocks != nullptr && changing_blocks[node / block_nodes] != 0;
-    const Real* rates = (changes ? secant_rates : tangent_rates) + node * size;
-    const Real* tangent = tangent_rates + node * size;
+    const double* rates = (changes ? secant_rates : tangent_rates) + node * size;
+    const double* tangent = tangent_rates + node * size;
     for (std::size_t c = 1; c < unreached_size; ++c) {
       // cleared, because a pass that reads the record reads all its components
-      unreached_heat[node * unreached_size + c] = Real(0);
+      unreached_heat[node * unreached_size + c] = 0.0;
     }
     band::solve_temperature_rate<Dim>(
         tangent, rates[HeatRates::capacity], rates[HeatRates::subgrid],
-        nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const Real*>(nodes.momentum_at(node)), dt,
+        nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const double*>(nodes.momentum_at(node)), dt,
         nodes.state_at(node)[mpm::NodalState::temperature_rate], unreached_heat[node * unreached_size], part,
-        [&](Real& rate, Real& power) {
+        [&](double& rate, double& power) {
           return has_faces && band::meets_face(faces.at(position_of_node<Dim>(block_keys, node, cell)), first_step,
-                                               static_cast<const Real*>(nodes.averages_at(node)),
+                                               static_cast<const double*>(nodes.averages_at(node)),
                                                rates[HeatRates::capacity], cell, dt, rate, power, part.gain.boundary);
         });
   }
@@ -172,23 +172,23 @@ struct MayChange {
   NodeViews<Dim> nodes;
   mpm::ParticleView<Dim> particles;
   Content content;
-  Real dt;
+  double dt;
 
   [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t node) const {
-    return !content.is_negligible(Real(2) * (dt * nodes.state_at(node)[mpm::NodalState::temperature_rate]));
+    return !content.is_negligible(2.0 * (dt * nodes.state_at(node)[mpm::NodalState::temperature_rate]));
   }
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
-    return !content.is_negligible(Real(2) * particles.conduction_in_cell(particle));
+    return !content.is_negligible(2.0 * particles.conduction_in_cell(particle));
   }
 };
 
 // Tile condition: nodes hold friction heat to be passed on to particles.
 template <int Dim>
 struct HasHeat {
-  const Real* unreached_heat;
+  const double* unreached_heat;
 
   [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t node) const {
-    return unreached_heat[node * mpm::record_size(mpm::UnreachedHeat::size<Dim>)] != Real(0);
+    return unreached_heat[node * mpm::record_size(mpm::UnreachedHeat::size<Dim>)] != 0.0;
   }
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t /*particle*/) const { return false; }
 };

@@ -19,7 +19,7 @@ template <class Backend>
 class Maps {
  public:
   // cell: mesh size [m]. half_sizes: of particles, by body, in cells.
-  Maps(Backend& backend, Real cell, const std::vector<Real>& half_sizes)
+  Maps(Backend& backend, double cell, const std::vector<double>& half_sizes)
       : backend_(backend), cell_(cell), sizes_(backend, half_sizes, cell) {}
 
   // Call after tiles have changed.
@@ -66,7 +66,7 @@ class Maps {
   }
 
   Backend& backend_;
-  Real cell_;
+  double cell_;
   BodySizes<Backend> sizes_;  // half sizes of particles [m]
   TileMapLayout layout_;
   bool knows_tiles_ = false;

@@ -18,37 +18,43 @@ namespace thawslide::device {
 // Records of nodes, accessed by the node's number over all blocks.
 template <int Dim>
 struct NodeViews {
-  Real *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
+  double *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
   const terrain::GroundAtNode<Dim>* known;  // null: no ground
 
   template <class Name>
-  [[nodiscard]] THAWSLIDE_HD static Real* record(Real* numbers, std::size_t node) {
+  [[nodiscard]] THAWSLIDE_HD static double* record(double* numbers, std::size_t node) {
     return numbers + node * mpm::record_size(mpm::components_of<Name, Dim>);
   }
-  [[nodiscard]] THAWSLIDE_HD Real* averages_at(std::size_t node) const { return record<mpm::Averages>(averages, node); }
-  [[nodiscard]] THAWSLIDE_HD Real* state_at(std::size_t node) const { return record<mpm::NodalState>(state, node); }
-  [[nodiscard]] THAWSLIDE_HD Real* momentum_at(std::size_t node) const { return record<mpm::Momentum>(momentum, node); }
-  [[nodiscard]] THAWSLIDE_HD Real* near_ground_at(std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_HD double* averages_at(std::size_t node) const {
+    return record<mpm::Averages>(averages, node);
+  }
+  [[nodiscard]] THAWSLIDE_HD double* state_at(std::size_t node) const { return record<mpm::NodalState>(state, node); }
+  [[nodiscard]] THAWSLIDE_HD double* momentum_at(std::size_t node) const {
+    return record<mpm::Momentum>(momentum, node);
+  }
+  [[nodiscard]] THAWSLIDE_HD double* near_ground_at(std::size_t node) const {
     return record<mpm::NearGround>(near_ground, node);
   }
-  [[nodiscard]] THAWSLIDE_HD Real* base_at(std::size_t node) const { return base + node * base_size; }
-  [[nodiscard]] THAWSLIDE_HD Real* contact_at(std::size_t node) const { return record<mpm::Contact>(contact, node); }
-  [[nodiscard]] THAWSLIDE_HD Real* motion_at(std::size_t node) const { return record<mpm::Motion>(motion, node); }
-  [[nodiscard]] THAWSLIDE_HD Real* velocity_at(std::size_t node) const { return record<mpm::Velocity>(velocity, node); }
+  [[nodiscard]] THAWSLIDE_HD double* base_at(std::size_t node) const { return base + node * base_size; }
+  [[nodiscard]] THAWSLIDE_HD double* contact_at(std::size_t node) const { return record<mpm::Contact>(contact, node); }
+  [[nodiscard]] THAWSLIDE_HD double* motion_at(std::size_t node) const { return record<mpm::Motion>(motion, node); }
+  [[nodiscard]] THAWSLIDE_HD double* velocity_at(std::size_t node) const {
+    return record<mpm::Velocity>(velocity, node);
+  }
 
   static constexpr std::size_t base_size = mpm::BaseLayout::size;
 };
 
 // Position [m, relative to the domain's lower corner] of a node, by its number over all blocks.
 template <int Dim>
-THAWSLIDE_HD Vector<Real, Dim> position_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
+THAWSLIDE_HD Vector<double, Dim> position_of_node(const std::uint64_t* block_keys, std::size_t node, double cell) {
   using T = mpm::Tile<Dim>;
   constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
   const typename T::Index index =
       T::node(T::index(block_keys[node / block_nodes]), static_cast<int>(node % block_nodes));
-  Vector<Real, Dim> position;
+  Vector<double, Dim> position;
   for (int a = 0; a < Dim; ++a) {
-    position[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * cell;
+    position[a] = static_cast<double>(index[static_cast<std::size_t>(a)]) * cell;
   }
   return position;
 }
@@ -57,7 +63,7 @@ THAWSLIDE_HD Vector<Real, Dim> position_of_node(const std::uint64_t* block_keys,
 template <int Dim>
 struct FacesAtNode {
   const mpm::DomainFaces<Dim>& faces;
-  Vector<Real, Dim> position;
+  Vector<double, Dim> position;
 
   [[nodiscard]] THAWSLIDE_HD bool any() const {
     for (int a = 0; a < Dim; ++a) {
@@ -68,7 +74,7 @@ struct FacesAtNode {
     }
     return false;
   }
-  THAWSLIDE_HD bool apply(Real /*mass*/, Vector<Real, Dim>& momentum) const {
+  THAWSLIDE_HD bool apply(double /*mass*/, Vector<double, Dim>& momentum) const {
     faces.apply_faces(position, momentum);
     return false;
   }
@@ -82,21 +88,22 @@ struct NodeStageArgs {
   TileTables<Dim> tables;
   NodeViews<Dim> nodes;
   mpm::DomainFaces<Dim> faces;
-  Vector<Real, Dim> gravity;
-  Real cell, mass_damping, time, dt;
+  Vector<double, Dim> gravity;
+  double cell, mass_damping, time, dt;
   bool distance_check, pore_pressure, base_is_fixed;
 
   [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
     return {faces, position_of_node<Dim>(tables.block_keys, node, cell)};
   }
   [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim> trial(std::size_t node) const {
-    return terrain::trial_state<Dim>(walls(node), dt, mass_damping, static_cast<const Real*>(nodes.momentum_at(node)));
+    return terrain::trial_state<Dim>(walls(node), dt, mass_damping,
+                                     static_cast<const double*>(nodes.momentum_at(node)));
   }
   [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
-    return nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass] > Real(0);
+    return nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass] > 0.0;
   }
   // Clearance of a candidate node along the normal of the ground [m].
-  [[nodiscard]] THAWSLIDE_HD Real clearance_along_normal(std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_HD double clearance_along_normal(std::size_t node) const {
     return terrain::clearance_along_normal(nodes.known[node].normal,
                                            nodes.near_ground_at(node)[mpm::NearGround::clearance]);
   }
@@ -118,11 +125,11 @@ struct SetState {
   const std::uint64_t* block_keys;
   band::HeatFaces<Dim> faces;
   bool has_faces;
-  Real cell;
+  double cell;
 
   THAWSLIDE_HD void operator()(std::size_t node) const {
-    Real* state = nodes.state_at(node);
-    if (band::set_nodal_state<Dim>(static_cast<const Real*>(nodes.averages_at(node)), state) && has_faces) {
+    double* state = nodes.state_at(node);
+    if (band::set_nodal_state<Dim>(static_cast<const double*>(nodes.averages_at(node)), state) && has_faces) {
       band::prescribe_temperature(faces.at(position_of_node<Dim>(block_keys, node, cell)), state);
     }
   }
@@ -137,22 +144,22 @@ struct PressOnGround {
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t node = candidates[k];
     const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
-    Real* base = step.nodes.base_at(node);
-    base[mpm::BaseLayout::load] = Real(0);
+    double* base = step.nodes.base_at(node);
+    base[mpm::BaseLayout::load] = 0.0;
     if (step.has_mass(node)) {
       const auto state = step.trial(node);
       base[mpm::BaseLayout::load] =
           known.bend * terrain::approach(step.distance_check, step.clearance_along_normal(node), step.dt, state.mass,
-                                         Real(state.momentum.dot(known.normal)));
+                                         double(state.momentum.dot(known.normal)));
     }
-    base[mpm::BaseLayout::covered] = Real(0);
-    if (known.area > Real(0)) {
-      const Real cell = step.cell;
+    base[mpm::BaseLayout::covered] = 0.0;
+    if (known.area > 0.0) {
+      const double cell = step.cell;
       base[mpm::BaseLayout::covered] =
           known.area * terrain::covered_fraction(Dim == 2 ? cell * cell : cell * cell * cell, [&](int above) {
             std::size_t other = 0;
             return step.find_above(node, above, other) ? step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume]
-                                                       : Real(0);
+                                                       : 0.0;
           });
     }
   }
@@ -161,17 +168,17 @@ struct PressOnGround {
 // Input of the basal laws at a candidate node, and their results.
 struct ContactInput {
   physics::basal::ContactNode node;
-  Real area;  // [m2]; 0: not in contact
+  double area;  // [m2]; 0: not in contact
   // mu_e, pore pressure that reduces friction [Pa], drag [Pa], c_S [Pa]
-  Real friction, relief, drag, cohesion;
+  double friction, relief, drag, cohesion;
 };
 
 template <int Dim>
 struct GatherContactInput {
   NodeStageArgs<Dim> step;
   const std::uint32_t* candidates;
-  Real smallest_area, gravity;
-  const Real* columns;  // records of BaseState by candidate; null without band columns
+  double smallest_area, gravity;
+  const double* columns;  // records of BaseState by candidate; null without band columns
   ContactInput* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -179,26 +186,26 @@ struct GatherContactInput {
     const std::size_t node = candidates[k];
     const NodeViews<Dim>& nodes = step.nodes;
     ContactInput& base = bases[k];
-    base.area = Real(0);
-    const Real load = nodes.base_at(node)[BaseLayout::load];
-    if (!step.has_mass(node) || !(load > Real(0))) {
+    base.area = 0.0;
+    const double load = nodes.base_at(node)[BaseLayout::load];
+    if (!step.has_mass(node) || !(load > 0.0)) {
       return;
     }
-    const Vector<Real, Dim>& normal = nodes.known[node].normal;
-    const Real none[BaseLayout::size] = {};
-    const Real pressure = terrain::pressure_of_column(step.dt, smallest_area, [&](int above) -> const Real* {
+    const Vector<double, Dim>& normal = nodes.known[node].normal;
+    const double none[BaseLayout::size] = {};
+    const double pressure = terrain::pressure_of_column(step.dt, smallest_area, [&](int above) -> const double* {
       std::size_t other = 0;
       return step.find_above(node, above, other) ? nodes.base_at(other) : none;
     });
     base.area = load / (pressure * step.dt);  // the basal area is divided among nodes in proportion to their loads
     base.node = terrain::contact_node_of<Dim>(
-        static_cast<const Real*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
-        static_cast<const Real*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
+        static_cast<const double*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
+        static_cast<const double*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
     if (columns != nullptr) {
       terrain::set_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
     }
     base.node.time = step.time;
-    base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const Real*>(nodes.momentum_at(node)), gravity);
+    base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const double*>(nodes.momentum_at(node)), gravity);
   }
 };
 
@@ -213,10 +220,10 @@ struct EvaluateFriction {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     ContactInput& base = bases[k];
-    if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
+    if (known[candidates[k]].substrate == substrate && base.area > 0.0) {
       base.friction = law.coefficient(base.node);
       base.drag = physics::basal::drag_of(law, base.node);
-      base.relief = Law::depends_on_pore_pressure ? base.node.pore_pressure : Real(0);
+      base.relief = Law::depends_on_pore_pressure ? base.node.pore_pressure : 0.0;
     }
   }
 };
@@ -230,7 +237,7 @@ struct EvaluateCohesion {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     ContactInput& base = bases[k];
-    if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
+    if (known[candidates[k]].substrate == substrate && base.area > 0.0) {
       base.cohesion = law.cohesion(base.node);
     }
   }
@@ -238,8 +245,8 @@ struct EvaluateCohesion {
 
 // Used when there is no erodible bed.
 struct NoBeds {
-  [[nodiscard]] THAWSLIDE_HD terrain::NoBed below(std::size_t /*candidate*/, Real /*area*/, Real /*strength*/,
-                                                  Real /*dt*/, Real /*mass*/) const {
+  [[nodiscard]] THAWSLIDE_HD terrain::NoBed below(std::size_t /*candidate*/, double /*area*/, double /*strength*/,
+                                                  double /*dt*/, double /*mass*/) const {
     return {};
   }
 };
@@ -259,23 +266,23 @@ struct ResolveContact {
   const ContactInput* bases;
   physics::FrictionClamp clamp;
   bool cap_pressure;
-  Real heat_fraction;
+  double heat_fraction;
   Beds beds;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
     const NodeViews<Dim>& nodes = step.nodes;
-    Real* motion = nodes.motion_at(node);
-    Real* contact = nodes.contact_at(node);
+    double* motion = nodes.motion_at(node);
+    double* contact = nodes.contact_at(node);
     clear<mpm::Motion>(motion);
     clear<mpm::Contact>(contact);
     const std::int32_t candidate = number != nullptr ? number[node] : absent;
-    contact[mpm::Contact::candidate] = candidate != absent ? Real(1) : Real(0);
+    contact[mpm::Contact::candidate] = candidate != absent ? 1.0 : 0.0;
     if (!step.has_mass(node)) {
       return;
     }
     auto state = step.trial(node);
     const FacesAtNode<Dim> walls = step.walls(node);
-    if (candidate != absent && bases[candidate].area > Real(0)) {
+    if (candidate != absent && bases[candidate].area > 0.0) {
       part.touches = true;
       touch(static_cast<std::size_t>(candidate), node, walls, state, part.contact, contact);
     }
@@ -299,18 +306,18 @@ struct ResolveContact {
 
  private:
   template <class Name>
-  THAWSLIDE_HD static void clear(Real* record) {
+  THAWSLIDE_HD static void clear(double* record) {
     for (std::size_t c = 0; c < mpm::record_size(mpm::components_of<Name, Dim>); ++c) {
-      record[c] = Real(0);
+      record[c] = 0.0;
     }
   }
   THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim>& walls,
-                          terrain::NodeState<Dim>& state, Sum& work, Real* contact) const {
+                          terrain::NodeState<Dim>& state, Sum& work, double* contact) const {
     const ContactInput& base = bases[candidate];
-    const Real sliding = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
-                                                   clamp, cap_pressure) +
-                         base.drag;
-    const Real strength = step.base_is_fixed ? std::numeric_limits<Real>::infinity() : sliding;
+    const double sliding = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief,
+                                                     base.cohesion, clamp, cap_pressure) +
+                           base.drag;
+    const double strength = step.base_is_fixed ? std::numeric_limits<double>::infinity() : sliding;
     const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
     const terrain::ContactConditions<Dim> conditions{
         known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
@@ -322,8 +329,8 @@ struct ResolveContact {
 // Velocities from the momentum that particles map back.
 template <int Dim>
 struct MapBack {
-  using Part = Real;
-  using Sum = Real;
+  using Part = double;
+  using Sum = double;
 
   NodeStageArgs<Dim> step;
 
@@ -332,14 +339,14 @@ struct MapBack {
     if (!step.has_mass(node)) {
       return;
     }
-    const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > Real(0);
+    const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > 0.0;
     const terrain::GroundOfMappedBack<Dim> below{touching, step.distance_check,
                                                  touching ? &nodes.known[node].normal : nullptr,
-                                                 touching ? step.clearance_along_normal(node) : Real(0)};
-    Real* velocity = nodes.velocity_at(node);
+                                                 touching ? step.clearance_along_normal(node) : 0.0};
+    double* velocity = nodes.velocity_at(node);
     work = terrain::map_back<Dim>(step.walls(node), below, step.gravity, step.dt,
-                                  static_cast<const Real*>(nodes.momentum_at(node)),
-                                  static_cast<const Real*>(nodes.motion_at(node)), velocity);
+                                  static_cast<const double*>(nodes.momentum_at(node)),
+                                  static_cast<const double*>(nodes.motion_at(node)), velocity);
   }
   THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
     for (std::size_t k = 0; k < count; ++k) {

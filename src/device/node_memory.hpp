@@ -19,15 +19,15 @@ class NodeMemory {
   }
   void clear_base(std::size_t nodes) {
     base_.resize(nodes * NodeViews<Dim>::base_size);
-    backend_.for_each(base_.size(), Fill<Real>{base_.data(), Real(0)});
+    backend_.for_each(base_.size(), Fill<double>{base_.data(), 0.0});
   }
 
   template <class Name>
-  [[nodiscard]] Array<Real, Backend>& of() {
+  [[nodiscard]] Array<double, Backend>& of() {
     return records_.template of<Name>();
   }
   template <class Name>
-  [[nodiscard]] const Array<Real, Backend>& of() const {
+  [[nodiscard]] const Array<double, Backend>& of() const {
     return records_.template of<Name>();
   }
   // known: ground data by node; null without ground.
@@ -45,7 +45,7 @@ class NodeMemory {
 
  private:
   Backend& backend_;
-  Array<Real, Backend> base_{backend_};
+  Array<double, Backend> base_{backend_};
   NodeArrays<Backend, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
              mpm::Velocity, mpm::HeatRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
              mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>

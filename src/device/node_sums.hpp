@@ -14,10 +14,10 @@ namespace thawslide::device {
 template <class Name, int Dim>
 struct RecordsOf {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
-  Real* numbers;
+  double* numbers;
 
   // node: number over all blocks.
-  [[nodiscard]] THAWSLIDE_HD Real* operator()(std::size_t node) const { return numbers + node * size; }
+  [[nodiscard]] THAWSLIDE_HD double* operator()(std::size_t node) const { return numbers + node * size; }
 };
 
 // Pointers to the records that a pass reads.
@@ -25,7 +25,7 @@ template <class Names>
 struct RecordsRead;
 template <class... Names>
 struct RecordsRead<mpm::RecordList<Names...>> {
-  using Type = mpm::ByName<mpm::Named<Names, const Real*>...>;
+  using Type = mpm::ByName<mpm::Named<Names, const double*>...>;
   template <class Records>
   static Type from([[maybe_unused]] const Records& records) {
     return {{records.template numbers<Names>()}...};
@@ -40,8 +40,8 @@ struct SumPatches {
 
   TileTables<Dim> tables;
   TileFilter accepts;
-  const Real* patches;
-  Real* records;
+  const double* patches;
+  double* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     using T = mpm::Tile<Dim>;
@@ -49,15 +49,15 @@ struct SumPatches {
     constexpr std::size_t own = static_cast<std::size_t>(T::stencil) / 2;
     const std::size_t component = k % size, node = k / size % nodes, block = k / size / nodes;
     const bool min_reduced = is_min_reduced(component);
-    Real sum = min_reduced ? std::numeric_limits<Real>::max() : Real(0);
+    double sum = min_reduced ? std::numeric_limits<double>::max() : 0.0;
     if (!min_reduced) {
-      visit_part(block, node, own, component, [&](Real part) { sum = part; });
+      visit_part(block, node, own, component, [&](double part) { sum = part; });
     }
     for_directions_that_see(node, [&](std::size_t d) {
       if (min_reduced) {
-        visit_part(block, node, d, component, [&](Real part) { sum = min(sum, part); });
+        visit_part(block, node, d, component, [&](double part) { sum = min(sum, part); });
       } else if (d != own) {
-        visit_part(block, node, d, component, [&](Real part) { sum += part; });
+        visit_part(block, node, d, component, [&](double part) { sum += part; });
       }
     });
     records[k] = sum;

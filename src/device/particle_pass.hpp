@@ -25,7 +25,7 @@ struct PassOver {
   mpm::ParticleView<Dim> particles;
   Weights weights;
   TileFilter accepts;
-  Real cell;
+  double cell;
   mpm::Mapping mapping;
 };
 
@@ -42,9 +42,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   static constexpr bool adds = sizeof...(Adds) > 0, adds_up = MemoryLayout::adds_up;
 
   Over over;
-  mpm::ByName<mpm::Named<Reads, const Real*>...> records;
-  Real* patches;  // of the record that is added to
-  Sums* sums;     // by tile
+  mpm::ByName<mpm::Named<Reads, const double*>...> records;
+  double* patches;  // of the record that is added to
+  Sums* sums;       // by tile
   mpm::ByName<mpm::Named<Kernels, Kernels>...> kernels;
 
   // Particles [first, last) in canonical order, from `cells` cells beginning at `cell`.
@@ -113,7 +113,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   THAWSLIDE_HD void prepare(Group& group, const MemoryLayout& memory, std::size_t tile) const {
     if constexpr (adds) {
       group.each(patch_nodes * size, [this, memory, tile](std::size_t k) {
-        memory.patch()[k] = MemoryLayout::accumulates ? patches[tile * patch_nodes * size + k] : Real(0);
+        memory.patch()[k] = MemoryLayout::accumulates ? patches[tile * patch_nodes * size + k] : 0.0;
         (raise<Adds>(k % size, memory.patch()[k]), ...);
       });
     }
@@ -138,11 +138,11 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       mpm::IsMinReduced<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
   // Initial value of a sum or a minimum.
   template <class Name>
-  static constexpr Real start = mpm::IsMinReduced<Name> ? std::numeric_limits<Real>::max() : Real(0);
+  static constexpr double start = mpm::IsMinReduced<Name> ? std::numeric_limits<double>::max() : 0.0;
 
   // Initializes min-reduced components to the largest number.
   template <class Name>
-  THAWSLIDE_HD static void raise(std::size_t component, Real& number) {
+  THAWSLIDE_HD static void raise(std::size_t component, double& number) {
     if (mpm::IsMinReduced<Name> && component >= first_component<Name> &&
         component < first_component<Name> + mpm::scatter_size<Name, Dim>) {
       number = start<Name>;
@@ -160,13 +160,13 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       return;
     }
     const mpm::ScalarIndex at{{tables.order[index]}};
-    const Real inverse_cell = Real(1) / over.cell;
+    const double inverse_cell = 1.0 / over.cell;
     const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
     mpm::OneGridPosition<Dim> from_node{{}, lowest, {}};
     for (std::size_t a = 0; a < Dim; ++a) {
       const int axis = static_cast<int>(a);
       from_node.offset[axis] = over.mapping.template coordinate<Dim>(over.particles, at, axis) * inverse_cell -
-                               static_cast<Real>(nearest[a]);
+                               static_cast<double>(nearest[a]);
       from_node.at_side[a] = over.weights.template at_side<Dim>(a, nearest[a]);
     }
     mpm::OneWeights<Dim> weights(over.mapping, over.particles, at);
@@ -239,8 +239,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
     const std::size_t node = k % cell_nodes;
     const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
-    const Real* open = memory.template open<Name>(chunk.number) + node * carried;
-    Real sum[carried];
+    const double* open = memory.template open<Name>(chunk.number) + node * carried;
+    double sum[carried];
     for (std::size_t c = 0; c < carried; ++c) {
       sum[c] = part.begins ? start<Name> : open[c];
     }
@@ -252,7 +252,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
         sum[c] = mpm::add_particle(at, brought, c, sum[c]);
       }
     }
-    Real* to =
+    double* to =
         part.ends ? memory.cell_sums() + k * carried : memory.template open<Name>(chunk.number + 1) + node * carried;
     for (std::size_t c = 0; c < carried; ++c) {
       to[c] = sum[c];
@@ -263,7 +263,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   THAWSLIDE_HD void add_cells(const MemoryLayout& memory, const Chunk& chunk, const Layers& layers, std::size_t node,
                               std::size_t component) const {
     constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
-    Real& number = memory.patch()[node * size + first_component<Name> + component];
+    double& number = memory.patch()[node * size + first_component<Name> + component];
     for_cells_that_see(layers, node, [&](std::size_t cell, std::size_t node_of_cell) {
       const std::size_t k = cell - chunk.cell;
       if (cell < chunk.cell || k >= chunk.cells) {
@@ -271,7 +271,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       }
       const CellPart part = part_of_cell(chunk, k);
       if (part.is_present() && part.ends) {
-        const Real brought = memory.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
+        const double brought = memory.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
         number = mpm::IsMinReduced<Name> ? min(number, brought) : number + brought;
       }
     });

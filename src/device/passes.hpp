@@ -14,7 +14,7 @@ class PassMemory {
  public:
   explicit PassMemory(Backend& backend) : patches_(backend), sums_(backend) {}
 
-  [[nodiscard]] Real* patches(std::size_t numbers) {
+  [[nodiscard]] double* patches(std::size_t numbers) {
     patches_.resize(numbers > patches_.size() ? numbers : patches_.size());
     return patches_.data();
   }
@@ -26,16 +26,16 @@ class PassMemory {
   }
 
  private:
-  Array<Real, Backend> patches_;
+  Array<double, Backend> patches_;
   Array<std::byte, Backend> sums_;
 };
 
 // Nodal records, one array per name.
 template <class Backend, class... Names>
-struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
+struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<double, Backend>>...> {
   explicit NodeArrays(Backend& backend)
-      : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...>{
-            mpm::Named<Names, Array<Real, Backend>>{Array<Real, Backend>(backend)}...} {}
+      : mpm::ByName<mpm::Named<Names, Array<double, Backend>>...>{
+            mpm::Named<Names, Array<double, Backend>>{Array<double, Backend>(backend)}...} {}
 };
 
 // Equivalent of mpm::particle_pass, with kernels that hold their parameters by value. Contributions are left in the

@@ -34,7 +34,7 @@ struct SeepingBefore : SeepingInState<Dim> {
 template <int Dim>
 struct SetSeepingPressure {
   NodeViews<Dim> nodes;
-  const Real* seeping_water;
+  const double* seeping_water;
   const std::uint8_t* blocks;
 
   THAWSLIDE_HD void operator()(std::size_t node) const {
@@ -49,29 +49,29 @@ struct SetSeepingPressure {
 // the sums contain only pore space, and the change is zero.
 template <int Dim>
 struct SolveSeepage {
-  using Part = Real;
-  using Sum = Real;
+  using Part = double;
+  using Sum = double;
 
   NodeViews<Dim> nodes;
-  const Real* seepage;
-  Real dt;
+  const double* seepage;
+  double dt;
 
-  THAWSLIDE_HD void visit(std::size_t node, Real& absorbed) const {
-    const Real* sums = seepage + node * mpm::record_size(mpm::components_of<mpm::Seepage, Dim>);
-    const Real change = band::pressure_change(sums, dt);
+  THAWSLIDE_HD void visit(std::size_t node, double& absorbed) const {
+    const double* sums = seepage + node * mpm::record_size(mpm::components_of<mpm::Seepage, Dim>);
+    const double change = band::pressure_change(sums, dt);
     nodes.state_at(node)[mpm::NodalState::pressure_change] = change;
     absorbed = band::absorbed_by_frozen(sums, change);
   }
-  THAWSLIDE_HD void add(const Real* parts, std::size_t count, Real& sum) const {
+  THAWSLIDE_HD void add(const double* parts, std::size_t count, double& sum) const {
     for (std::size_t k = 0; k < count; ++k) {
       sum += parts[k];
     }
   }
 };
 struct KeepVented {
-  const Real* absorbed;
+  const double* absorbed;
   physics::Phases phases;
-  Real* vented;
+  double* vented;
 
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_absorbed(phases, *absorbed); }
 };
@@ -98,7 +98,7 @@ struct SeepageFlows {
 
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
-  Real dt, inverse_cell;
+  double dt, inverse_cell;
 
   [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic, dt, inverse_cell}; }
 };
@@ -137,7 +137,7 @@ struct UpdatePorePressure {
   ColumnsByTile<Dim> columns;
 
   [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const {
-    return {physics, hydraulic, Real(0.5) * columns.cell, columns.of_tile(tile)};
+    return {physics, hydraulic, 0.5 * columns.cell, columns.of_tile(tile)};
   }
 };
 

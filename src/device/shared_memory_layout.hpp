@@ -64,7 +64,7 @@ template <class Contents, bool is_padded>
 struct PaddedTo : Contents {};
 template <class Contents>
 struct PaddedTo<Contents, true> : Contents {
-  Real after;
+  double after;
 };
 
 // Patch that is read.
@@ -72,7 +72,7 @@ template <class Name, int Dim>
 struct PatchRead {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   static constexpr std::size_t count = static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size;
-  const Real* numbers;
+  const double* numbers;
 };
 
 template <class Reads, class Adds, int Dim, class... Kernels>
@@ -104,8 +104,8 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
     SumsOf<Kernels...> sums;
   };
   template <class T>
-  static constexpr bool has_even_numbers = alignof(T) == alignof(Real) && sizeof(T) / sizeof(Real) > 0 &&
-                                           sizeof(T) / sizeof(Real) % 2 == 0;
+  static constexpr bool has_even_numbers = alignof(T) == alignof(double) && sizeof(T) / sizeof(double) > 0 &&
+                                           sizeof(T) / sizeof(double) % 2 == 0;
   // An odd size in numbers avoids bank conflicts between adjacent threads.
   struct Slot : PaddedTo<Contents, has_even_numbers<Contents>> {
     THAWSLIDE_HD void keep(const mpm::OneWeights<Dim>& weights) { this->stencils.keep(weights); }
@@ -120,16 +120,16 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
 
   [[nodiscard]] THAWSLIDE_HD Slot* slots() const { return at<Slot>(0); }
   [[nodiscard]] THAWSLIDE_HD SumsOf<Kernels...>* sums() const { return at<SumsOf<Kernels...>>(sums_at); }
-  [[nodiscard]] THAWSLIDE_HD Real* patch() const { return at<Real>(patch_at); }
-  [[nodiscard]] THAWSLIDE_HD Real* cell_sums() const { return at<Real>(cell_sums_at); }
+  [[nodiscard]] THAWSLIDE_HD double* patch() const { return at<double>(patch_at); }
+  [[nodiscard]] THAWSLIDE_HD double* cell_sums() const { return at<double>(cell_sums_at); }
   // Partial sums, at the start of chunk `number`, of the cell that continues from the chunk before.
   template <class Name>
-  [[nodiscard]] THAWSLIDE_HD Real* open(std::size_t number) const {
-    return at<Real>(open_at) + (2 * before<Name, Adds...>() + number % 2 * mpm::scatter_size<Name, Dim>)*cell_nodes;
+  [[nodiscard]] THAWSLIDE_HD double* open(std::size_t number) const {
+    return at<double>(open_at) + (2 * before<Name, Adds...>() + number % 2 * mpm::scatter_size<Name, Dim>)*cell_nodes;
   }
   template <class Name>
-  [[nodiscard]] THAWSLIDE_HD Real* read() const {
-    return at<Real>(reads_at) + before_read<Name, Reads...>();
+  [[nodiscard]] THAWSLIDE_HD double* read() const {
+    return at<double>(reads_at) + before_read<Name, Reads...>();
   }
   [[nodiscard]] THAWSLIDE_HD PatchesRead patches_read() const { return {{{read<Reads>()}}...}; }
 
@@ -167,10 +167,10 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   static constexpr std::size_t sums_at = slots_bytes;
   static constexpr std::size_t patch_at = sums_at + up(sizeof(SumsOf<Kernels...>));
   static constexpr std::size_t cell_sums_at =
-      patch_at + up(static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size * sizeof(Real));
-  static constexpr std::size_t open_at = cell_sums_at + up(most_cells * cell_nodes * largest() * sizeof(Real));
+      patch_at + up(static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size * sizeof(double));
+  static constexpr std::size_t open_at = cell_sums_at + up(most_cells * cell_nodes * largest() * sizeof(double));
   static constexpr std::size_t reads_at =
-      open_at + up(2 * cell_nodes * (std::size_t{0} + ... + mpm::scatter_size<Adds, Dim>)*sizeof(Real));
+      open_at + up(2 * cell_nodes * (std::size_t{0} + ... + mpm::scatter_size<Adds, Dim>)*sizeof(double));
 
   template <class Type>
   [[nodiscard]] THAWSLIDE_HD Type* at(std::size_t offset) const {
@@ -181,7 +181,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
 
  public:
   static constexpr std::size_t bytes =
-      reads_at + up((std::size_t{0} + ... + PatchRead<Reads, Dim>::count) * sizeof(Real));
+      reads_at + up((std::size_t{0} + ... + PatchRead<Reads, Dim>::count) * sizeof(double));
 };
 
 // Linear shape functions for all records of the pass.
@@ -192,8 +192,8 @@ struct LinearWeights {
   }
   template <int Dim, class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OneGridPosition<Dim>& position,
-                        const Particles& /*particles*/, const mpm::ScalarIndex& /*at*/, Real /*cell*/,
-                        Real inverse_cell) const {
+                        const Particles& /*particles*/, const mpm::ScalarIndex& /*at*/, double /*cell*/,
+                        double inverse_cell) const {
     weights.set_linear(position, inverse_cell);
   }
 };
@@ -210,8 +210,8 @@ struct MomentumWeights {
   }
   template <class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OneGridPosition<Dim>& position,
-                        const Particles& particles, const mpm::ScalarIndex& at, Real /*cell*/,
-                        Real inverse_cell) const {
+                        const Particles& particles, const mpm::ScalarIndex& at, double /*cell*/,
+                        double inverse_cell) const {
     weights.set_linear(position, inverse_cell);
     weights.template set_momentum<Shape>(position, sizes.of(particles, at), inverse_cell);
   }
@@ -222,7 +222,8 @@ template <class Shape, int Dim>
 struct AffineWeights : MomentumWeights<Shape, Dim> {
   template <class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OneGridPosition<Dim>& position,
-                        const Particles& particles, const mpm::ScalarIndex& at, Real cell, Real inverse_cell) const {
+                        const Particles& particles, const mpm::ScalarIndex& at, double cell,
+                        double inverse_cell) const {
     MomentumWeights<Shape, Dim>::set(weights, position, particles, at, cell, inverse_cell);
     weights.template set_affine<Shape>(position, cell, inverse_cell);
   }

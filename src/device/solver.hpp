@@ -31,7 +31,7 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   // Advances the solution by dt [s], from time [s].
-  virtual StepSums<Dim> step(Real time, Real dt) = 0;
+  virtual StepSums<Dim> step(double time, double dt) = 0;
   // Extremes that determine the first step; those of later ones are among the sums of the step before.
   virtual band::StepExtremes extremes() = 0;
   // Monitor sums over the particles after a step.
@@ -43,7 +43,7 @@ class Solver {
   // Particle at the front. mass: total mass of the particles [kg].
   virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) = 0;
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
-  virtual std::vector<Vector<Real, Dim>> escaped_positions() = 0;
+  virtual std::vector<Vector<double, Dim>> escaped_positions() = 0;
   // Sorts particles in memory into canonical order. Does not affect results.
   virtual void sort_in_memory() = 0;
   // Copies to the same number of particles, in their original order.

@@ -18,7 +18,7 @@ class SolverImpl final : public Solver<Dim> {
              HostCallbacks<Dim> callbacks, Words&&... backend)
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(callbacks)) {}
 
-  StepSums<Dim> step(Real time, Real dt) override { return step_.step(time, dt); }
+  StepSums<Dim> step(double time, double dt) override { return step_.step(time, dt); }
   band::StepExtremes extremes() override { return step_.extremes(); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
   void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
@@ -26,7 +26,7 @@ class SolverImpl final : public Solver<Dim> {
     return step_.sum_over_body(of_particle);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override { return step_.front(path, mass); }
-  std::vector<Vector<Real, Dim>> escaped_positions() override { return step_.escaped_positions(); }
+  std::vector<Vector<double, Dim>> escaped_positions() override { return step_.escaped_positions(); }
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { step_.copy_to(particles); }
   void time_stages() override { backend_.time_stages(); }

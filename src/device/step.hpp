@@ -35,15 +35,15 @@ struct DeformMaterial {
   physics::Elastic elastic;
   physics::Phases phases;
   bool gaps_close_first;
-  Real viscosity_time;
+  double viscosity_time;
   bool effective_stress;
-  Real dt;
+  double dt;
   std::int32_t material;
   bool is_only_one;  // all particles have this material
 
   // Kernel for material m of a step model.
   template <class Model>
-  static DeformMaterial of(const Law& law, const Model& model, std::size_t m, Real dt) {
+  static DeformMaterial of(const Law& law, const Model& model, std::size_t m, double dt) {
     const auto& material = model.materials[m];
     return {law,
             material.elastic,
@@ -68,13 +68,13 @@ struct DeformMaterial {
 
 // cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
 template <class Backend, int Dim>
-void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, Real cell,
-                           const Ground<Backend, Dim>& ground, const Real* columns, ContactInput* bases) {
+void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, double cell,
+                           const Ground<Backend, Dim>& ground, const double* columns, ContactInput* bases) {
   const std::size_t count = ground.candidate_count();
   const std::uint32_t* candidates = ground.candidates();
   backend.for_each(count, PressOnGround<Dim>{step, candidates});
-  const Real face = Dim == 2 ? cell : cell * cell;
-  backend.for_each(count, GatherContactInput<Dim>{step, candidates, static_cast<Real>(terrain::smallest_area) * face,
+  const double face = Dim == 2 ? cell : cell * cell;
+  backend.for_each(count, GatherContactInput<Dim>{step, candidates, static_cast<double>(terrain::smallest_area) * face,
                                                   base.gravity, columns, bases});
   for (std::size_t g = 0; g < base.grounds.size(); ++g) {
     const int substrate = static_cast<int>(g);
@@ -128,7 +128,7 @@ class Step {
   }
 
   // Advances the solution by dt [s], from time [s].
-  Sums step(Real time, Real dt) {
+  Sums step(double time, double dt) {
     find_cells();
     passes_.backend.end_stage("find_cells");
     if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
@@ -172,7 +172,7 @@ class Step {
     return front_.find(path, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
-  std::vector<Vector<Real, Dim>> escaped_positions() {
+  std::vector<Vector<double, Dim>> escaped_positions() {
     return escape_check_.indices(passes_, escape_kernel(), sums_.get(0).escapes);
   }
   void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
@@ -196,9 +196,9 @@ class Step {
     maps_.forget_tiles();
     band_.resize_for(nodes);
     if (!passes_.model.moves) {
-      for (Array<Real, Backend>* records :
+      for (Array<double, Backend>* records :
            {&passes_.template of<mpm::Momentum>(), &passes_.template of<mpm::Contact>()}) {
-        passes_.backend.for_each(records->size(), Fill<Real>{records->data(), Real(0)});
+        passes_.backend.for_each(records->size(), Fill<double>{records->data(), 0.0});
       }
     }
     if (passes_.ground.exists()) {
@@ -210,7 +210,7 @@ class Step {
       bases_.resize(passes_.ground.candidate_count());
     }
   }
-  void step_mechanics(Real time, Real dt) {
+  void step_mechanics(double time, double dt) {
     add_momentum();
     passes_.backend.end_stage("momentum_to_grid");
     resolve_contact(time, dt);
@@ -229,7 +229,7 @@ class Step {
     passes_.template sum<mpm::Momentum, void>(AllTiles{});
   }
 
-  void resolve_contact(Real time, Real dt) {
+  void resolve_contact(double time, double dt) {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = SeesCandidates<Dim>{passes_.cells.tables().tile_keys};
@@ -266,29 +266,28 @@ class Step {
                  &sums_.data()->contact);
   }
 
-  void move(Real time, Real dt) {
+  void move(double time, double dt) {
     using Kernel = mpm::Move<Dim>;
-    passes_.keep(
-        &passes_.run(passes_.momentum(), Kernel{passes_.model.affine ? Real(1) : passes_.model.pic_fraction, dt})
-             ->template of<Kernel>(),
-        &sums_.data()->particle_kinetic);
+    passes_.keep(&passes_.run(passes_.momentum(), Kernel{passes_.model.affine ? 1.0 : passes_.model.pic_fraction, dt})
+                      ->template of<Kernel>(),
+                 &sums_.data()->particle_kinetic);
     passes_.if_affine([&](const auto& weights) {
       using Affine = mpm::MoveAffine<Dim>;
       const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
-      passes_.backend.for_each(1, Add<Real>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
+      passes_.backend.for_each(1, Add<double>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
     });
-    passes_.backend.for_each(1, Fill<Real>{&sums_.data()->filtered, Real(0)});
+    passes_.backend.for_each(1, Fill<double>{&sums_.data()->filtered, 0.0});
     if (passes_.model.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
       filter_velocities(passes_, &sums_.data()->filtered);
     }
     passes_.template sum<mpm::Velocity, void>(AllTiles{});
     const std::size_t blocks = passes_.cells.tables().blocks;
     passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim>{passes_.nodes_in_step(time, dt)},
-                                 passes_.memory.template sums<Real>(partial_sum_count(blocks))),
+                                 passes_.memory.template sums<double>(partial_sum_count(blocks))),
                  &sums_.data()->mapped_back);
   }
 
-  void update_stress(Real dt) {
+  void update_stress(double dt) {
     passes_.backend.for_each(1, Fill<mpm::Deformed>{&sums_.data()->deformed, {}});
     for (std::size_t m = 0; m < passes_.model.materials.size(); ++m) {
       std::visit(
@@ -347,7 +346,7 @@ class Step {
   BandColumns<Backend, Dim> band_columns_;
   ErodibleBed<Backend, Dim> bed_;
   Array<double, Backend> column_heights_{passes_.backend};
-  Array<Real, Backend> free_gaps_{passes_.backend};
+  Array<double, Backend> free_gaps_{passes_.backend};
   Array<ContactInput, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   Front<Backend, Dim> front_{passes_.backend};

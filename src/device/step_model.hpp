@@ -29,27 +29,27 @@ namespace thawslide::device {
 
 template <int Dim>
 struct StepModel {
-  Real cell = 0;  // mesh size [m]
+  double cell = 0;  // mesh size [m]
   mpm::Mapping mapping;
   terrain::ColumnChunks<Dim> columns;                    // of nodes; only with ground
-  std::vector<Real> half_sizes;                          // of particles, by body, in cells
+  std::vector<double> half_sizes;                        // of particles, by body, in cells
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   bool affine = false;                                   // APIC
   bool moves = true;                                     // off: heat and pore pressure only
   mpm::PrescribedSides<Dim> sides;                       // with prescribed velocity
-  Vector<Real, Dim> gravity;                             // [m/s2]
-  Real pic_fraction = 0;                                 // fraction of PIC in new velocities
+  Vector<double, Dim> gravity;                           // [m/s2]
+  double pic_fraction = 0;                               // fraction of PIC in new velocities
   int filter_order = 0;                                  // of the velocity filter; 0: none
-  std::function<bool(Real time, Real dt)> filters_in_step;
-  Real mass_damping = 0;  // [1/s]
+  std::function<bool(double time, double dt)> filters_in_step;
+  double mass_damping = 0;  // [1/s]
   std::vector<mpm::MaterialModel> materials;
   physics::Phases phases;
   bool effective_stress = false;  // pore pressure also acts inside the body
   bool lubrication = true;        // off: the base uses the initial porosity and saturation
   mpm::DomainFaces<Dim> faces;
-  Vector<Real, Dim> lower, upper;  // bounds of particle positions [m]
-  bool finds_extremes = false;     // StepSums::extremes is required
-  bool counts_escaped = false;     // StepSums::escapes is required
+  Vector<double, Dim> lower, upper;  // bounds of particle positions [m]
+  bool finds_extremes = false;       // StepSums::extremes is required
+  bool counts_escaped = false;       // StepSums::escapes is required
   terrain::BasalLaw base;
   bool base_is_fixed = false;     // no slip
   bool pore_pressure = true;      // off: P = 0 at contact nodes
@@ -61,11 +61,11 @@ struct StepModel {
   band::AnyHeatContent heat_content;
   band::HeatFaces<Dim> heat_faces;
   band::BandPhysics band;
-  std::vector<Real> hydraulic_conductivity;       // by material [m/s]
-  std::vector<Real> free_gaps;                    // as in band::FreeGaps
-  std::function<Real(Real time)> band_thickness;  // [m]; 0: no band, xi = 1
-  bool rescales_band = true;                      // off: scaling is constant
-  bool scales_all = true;                         // scaling also applies outside the band
+  std::vector<double> hydraulic_conductivity;         // by material [m/s]
+  std::vector<double> free_gaps;                      // as in band::FreeGaps
+  std::function<double(double time)> band_thickness;  // [m]; 0: no band, xi = 1
+  bool rescales_band = true;                          // off: scaling is constant
+  bool scales_all = true;                             // scaling also applies outside the band
 
   [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
   [[nodiscard]] bool has_seepage() const {
@@ -73,7 +73,7 @@ struct StepModel {
   }
   [[nodiscard]] bool is_viscous() const {
     return std::any_of(materials.begin(), materials.end(),
-                       [](const auto& material) { return material.viscosity_time > Real(0); });
+                       [](const auto& material) { return material.viscosity_time > 0.0; });
   }
 };
 
@@ -88,9 +88,9 @@ struct HostColumns {
   // nodes `follow` needs.
   std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> update_blocks;
   // Records of BaseState of the candidate nodes, in the order of blocks and nodes.
-  std::function<const std::vector<Real>&()> states;
+  std::function<const std::vector<double>&()> states;
   // Called after contact, with a record of column_record_size<Dim> numbers per node of the requested blocks.
-  std::function<void(const std::vector<Real>& nodes)> follow;
+  std::function<void(const std::vector<double>& nodes)> follow;
 };
 // Per node: the record of Contact, mass [kg] and mid-step velocity [m/s].
 template <int Dim>
@@ -107,10 +107,10 @@ struct HostBed {
   std::function<void(const Columns& of_blocks, const Columns& of_candidates)> set_columns;
   // Called with the newly covered bed parts of the block columns (terrain/bed.hpp) and the loads of the candidate
   // nodes. Returns the bed mass available to each candidate node [kg].
-  std::function<const std::vector<Real>&(const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads)>
+  std::function<const std::vector<double>&(const std::vector<std::uint32_t>& parts, const std::vector<double>& loads)>
       distribute;
   // Called after contact, with a record of bed_record_size<Dim> numbers per candidate node.
-  std::function<void(const std::vector<Real>& nodes)> collect;
+  std::function<void(const std::vector<double>& nodes)> collect;
 };
 // Per node: the record of BedLayout, and the normal pressure [Pa] if the node has entrained bed material.
 template <int Dim>

@@ -27,7 +27,7 @@ class StepPasses {
         particles(used, of_cpu, count),
         cells(used, known.cell, known.mapping),
         ground(used, query_ground),
-        sizes_(used, known.half_sizes, Real(1)) {}
+        sizes_(used, known.half_sizes, 1.0) {}
   StepPasses(const StepPasses&) = delete;
   StepPasses& operator=(const StepPasses&) = delete;
 
@@ -84,18 +84,18 @@ class StepPasses {
   }
 
   template <class Name>
-  [[nodiscard]] Array<Real, Backend>& of() {
+  [[nodiscard]] Array<double, Backend>& of() {
     return nodes.template of<Name>();
   }
   [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
-  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(Real time, Real dt) {
+  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(double time, double dt) {
     return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,         model.mass_damping,
             time,           dt,      model.distance_check, model.pore_pressure, model.base_is_fixed};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).
   template <class Name>
-  [[nodiscard]] const Real* numbers() const {
+  [[nodiscard]] const double* numbers() const {
     if constexpr (std::is_same_v<Name, mpm::Planes>) {
       return ground.records();
     } else {

@@ -16,14 +16,14 @@ namespace thawslide::device {
 template <int Dim>
 struct StepSums {
   terrain::ContactWork<Dim> contact;
-  Real particle_kinetic = 0;  // as mpm::move_particles returns
-  Real filtered = 0;          // kinetic energy added by the velocity filter
-  Real mapped_back = 0;       // work of internal forces at mid-step velocities minus that at mapped-back velocities
+  double particle_kinetic = 0;  // as mpm::move_particles returns
+  double filtered = 0;          // kinetic energy added by the velocity filter
+  double mapped_back = 0;       // work of internal forces at mid-step velocities minus that at mapped-back velocities
   mpm::Deformed deformed;
-  Real band_rescale = 0;  // heat added by changes of scaling
+  double band_rescale = 0;  // heat added by changes of scaling
   band::HeatGain heat;
   band::DrainedWater drained;    // at the surface
-  Real vented = 0;               // water lost to frozen pores [kg]
+  double vented = 0;             // water lost to frozen pores [kg]
   mpm::InvalidParticle invalid;  // after particles have moved
   band::StepExtremes extremes;
   mpm::BodyContactWork between_bodies;  // of bodies that do not share nodes

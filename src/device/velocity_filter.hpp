@@ -11,13 +11,13 @@ namespace thawslide::device {
 template <int Dim>
 struct MakeIncrement {
   bool first;
-  Real least_square;
-  const Real *masses, *moments, *brought;
-  Real *increments, *totals;
+  double least_square;
+  const double *masses, *moments, *brought;
+  double *increments, *totals;
 
   THAWSLIDE_HD void operator()(std::size_t node) const {
-    Real* increment = at<mpm::FilterIncrement>(increments, node);
-    Real* total = at<mpm::FilterTotal>(totals, node);
+    double* increment = at<mpm::FilterIncrement>(increments, node);
+    double* total = at<mpm::FilterTotal>(totals, node);
     mpm::make_increment<Dim>(first, least_square, at<mpm::Momentum>(masses, node),
                              at<mpm::FilterMoments>(moments, node), at<mpm::FilterMomentum>(brought, node), increment,
                              total);
@@ -32,7 +32,7 @@ struct MakeIncrement {
 
 // Recomputes the momentum in the patches of Velocity. gained: kinetic energy [J], in device memory.
 template <class Backend, class Shape, int Dim>
-void filter_velocities(StepPasses<Backend, Shape, Dim>& passes, Real* gained) {
+void filter_velocities(StepPasses<Backend, Shape, Dim>& passes, double* gained) {
   using Passes = StepPasses<Backend, Shape, Dim>;
   using Taking = mpm::ApplyFiltered<Dim>;
   const std::size_t nodes = passes.cells.tables().blocks * Passes::block_nodes;

@@ -128,6 +128,7 @@ RasterStyle style_of_map(const std::string& name) {
       {"max_speed", positive({5, 10, 20, 30, 40, 60, 80, 100}, "m/s", 1.0, viridis)},
       {"max_momentum_flux", positive({10, 100, 1e3, 1e4, 1e5}, "m3/s2", 1.0, viridis)},
       {"max_pressure", positive({3, 10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, magma_reversed)},
+      {"max_pressure_time", {classes_between({5, 10, 20, 30, 60, 90, 120, 180}, 1.0, cividis), 0.0, "s", 1.0, false}},
       {"arrival_time", {classes_between({5, 10, 20, 30, 60, 90, 120, 180}, 1.0, cividis), 0.0, "s", 1.0, false}},
       {"elevation_change", change_of_elevation()},
       {"max_basal_temperature",

@@ -14,7 +14,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
-constexpr std::uint64_t format_version = 12;
+constexpr std::uint64_t format_version = 13;
 
 class Writer {
  public:
@@ -189,7 +189,7 @@ std::string checkpoint_bytes(const mpm::Particles<Dim>& particles, std::size_t a
   writer.put(format_version);
   writer.put(case_text);
   for (const std::uint64_t number :
-       {std::uint64_t{Dim}, std::uint64_t{sizeof(Real)}, std::uint64_t{at_start}, std::uint64_t{particles.size()}}) {
+       {std::uint64_t{Dim}, std::uint64_t{sizeof(double)}, std::uint64_t{at_start}, std::uint64_t{particles.size()}}) {
     writer.put(number);
   }
   writer.put(scalars);
@@ -230,7 +230,7 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   Reader reader = reader_of(checkpoint);
   (void)reader.text();  // skips the case
   reader.expect(Dim, "dimension");
-  reader.expect(sizeof(Real), "number size");
+  reader.expect(sizeof(double), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
   const std::vector<std::size_t> record_bytes = row_sizes<Dim>();
   // The number of particles may have changed, by removal, entrainment or splitting.

@@ -26,13 +26,15 @@ using IsOwn = std::function<bool(const fs::path& file)>;
 
 // Except run.json.
 constexpr std::string_view files_of_a_run[] = {
-    "history.csv", "probes.csv",      "case.toml",    "terrain.csv", "particles.vtkhdf",      checkpoint_name,
-    "report.html", "comparison.html", "summary.html", "summary.pdf", previous_checkpoint_name};
+    "history.csv",           "probes.csv",      "case.toml",    "terrain.csv", "particles.vtkhdf", checkpoint_name,
+    "report.html",           "comparison.html", "summary.html", "summary.pdf", "assets.csv",       "terrain-after.tif",
+    previous_checkpoint_name};
 // In maps/, as GeoTIFF with a style (sim/maps/map_kinds.cpp, app/map_output.cpp).
-constexpr std::string_view maps_of_a_run[] = {
-    "terrain",           "release",      "ground",       "max_thickness",    "final_thickness",       "max_speed",
-    "max_momentum_flux", "max_pressure", "arrival_time", "elevation_change", "max_basal_temperature", "max_melt",
-    "max_pore_pressure"};
+constexpr std::string_view maps_of_a_run[] = {"terrain",           "release",          "ground",
+                                              "max_thickness",     "final_thickness",  "max_speed",
+                                              "max_momentum_flux", "max_pressure",     "max_pressure_time",
+                                              "arrival_time",      "elevation_change", "max_basal_temperature",
+                                              "max_melt",          "max_pore_pressure"};
 // In figures/, as images or videos (python/thawslide/figures/__init__.py).
 constexpr std::string_view figures_of_a_run[] = {"extent_maps",
                                                  "animation",

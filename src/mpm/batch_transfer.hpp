@@ -12,7 +12,7 @@ namespace thawslide::mpm {
 template <int Dim, std::size_t Width = 3>
 struct BatchStencil {
   BatchNodes nodes;
-  std::array<AxisWeights<Simd<Real>, Width>, Dim> axis;
+  std::array<AxisWeights<Simd<double>, Width>, Dim> axis;
 };
 
 // Array of the results of make(axis).
@@ -29,7 +29,7 @@ THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
 // Positions of the particles of a batch: nearest nodes, and offsets from them in cells.
 template <int Dim>
 struct BatchGridPosition {
-  Vector<Simd<Real>, Dim> node, offset;
+  Vector<Simd<double>, Dim> node, offset;
 };
 
 template <int Dim>
@@ -38,7 +38,7 @@ THAWSLIDE_ALWAYS_INLINE BatchGridPosition<Dim> grid_position(const SparseGrid<Di
                                                              const TileBatch<Dim>& batch) {
   BatchGridPosition<Dim> at;
   for (int a = 0; a < Dim; ++a) {
-    at.node[a] = Simd<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
+    at.node[a] = Simd<double>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
     at.offset[a] = grid.mapping().template coordinate<Dim>(particles, batch, a) * grid.inverse_cell() - at.node[a];
   }
   return at;
@@ -46,9 +46,9 @@ THAWSLIDE_ALWAYS_INLINE BatchGridPosition<Dim> grid_position(const SparseGrid<Di
 
 // Lanes at a side of the domain that prescribes velocity.
 template <int Dim>
-THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const PrescribedSides<Dim>& sides, int axis, Simd<Real> node) {
+THAWSLIDE_ALWAYS_INLINE SimdMask<double> at_side(const PrescribedSides<Dim>& sides, int axis, Simd<double> node) {
   const auto a = static_cast<std::size_t>(axis);
-  return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
+  return (node == static_cast<double>(sides.lower[a])) | (node == static_cast<double>(sides.upper[a]));
 }
 
 // Stencil for a shape function, which is selected by batch: a pass is then compiled once. size: of the particles, in
@@ -56,7 +56,7 @@ THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const PrescribedSides<Dim>& sides
 template <int Dim>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> make_stencil(ShapeFunction shape, const SparseGrid<Dim>& grid,
                                                        const TileBatch<Dim>& batch, const BatchGridPosition<Dim>& at,
-                                                       const HalfSize<Simd<Real>>& size,
+                                                       const HalfSize<Simd<double>>& size,
                                                        const PrescribedSides<Dim>& sides) {
   const auto of_axes = [&](auto functions) THAWSLIDE_INLINE_LAMBDA {
     return for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
@@ -70,32 +70,32 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> make_stencil(ShapeFunction shape, cons
 // node.
 template <int Dim>
 struct CornerStencil : BatchStencil<Dim, 2> {
-  std::array<std::int32_t, simd_width<Real>> first_in_cell;  // of the lowest corner, by lane
+  std::array<std::int32_t, simd_width<double>> first_in_cell;  // of the lowest corner, by lane
 };
 
 // Linear shape functions of a batch. Scatter uses the corners of the particles' cells. Gather uses all nodes around the
 // nearest ones, because neighbours share these more often than corners.
 template <int Dim>
 struct LinearStencil {
-  Vector<Simd<Real>, Dim> offset;  // from the nearest node, in cells
+  Vector<Simd<double>, Dim> offset;  // from the nearest node, in cells
   const BatchNodes& nodes;
-  Real inverse_cell;
+  double inverse_cell;
 
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE CornerStencil<Dim> corners() const {
-    const Simd<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
-    Simd<Real> index = Simd<Real>::load_whole(nodes.first.data()), in_cell = zero;
+    const Simd<double> zero = 0.0, one = 1.0, slope = inverse_cell;
+    Simd<double> index = Simd<double>::load_whole(nodes.first.data()), in_cell = zero;
     for (int a = 0; a < Dim; ++a) {
       const auto right = offset[a] >= zero;
-      index += select(right, Simd<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
-      in_cell += select(right, Simd<Real>(Real(power(3, a))), zero);
+      index += select(right, Simd<double>(double(power(Tile<Dim>::patch_edge, a))), zero);
+      in_cell += select(right, Simd<double>(double(power(3, a))), zero);
     }
     BatchNodes corner_nodes;
     index.store_whole(corner_nodes.first.data());
     corner_nodes.runs = BatchNodes::irregular;
     CornerStencil<Dim> corners{{corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-                                  const Simd<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
-                                  const Simd<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
-                                  return AxisWeights<Simd<Real>, 2>{{back, along}, {-slope, slope}};
+                                  const Simd<double> along = select(offset[a] >= zero, offset[a], one + offset[a]);
+                                  const Simd<double> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
+                                  return AxisWeights<Simd<double>, 2>{{back, along}, {-slope, slope}};
                                 })},
                                {}};
     in_cell.store_whole(corners.first_in_cell.data());
@@ -118,7 +118,7 @@ THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim> linear_stencil(const SparseGrid<Dim>&
 template <int Dim>
 struct AffineBatch {
   BatchStencil<Dim> nodes;
-  Vector<Simd<Real>, Dim> moment;
+  Vector<Simd<double>, Dim> moment;
 };
 
 template <int Dim>
@@ -146,7 +146,7 @@ struct SharedNodes {
   const Patch<Dim, Components>& patch;
   std::size_t first;
 
-  THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
+  THAWSLIDE_ALWAYS_INLINE Simd<double> operator()(std::size_t offset, std::size_t component) const {
     return patch.records[first + offset][component];
   }
 };
@@ -154,24 +154,24 @@ template <int Dim, int Components>
 struct NodesOfTwoRuns {
   const Patch<Dim, Components>& patch;
   std::size_t first, second;
-  SimdMask<Real> in_first;
+  SimdMask<double> in_first;
 
-  THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
-    return select(in_first, Simd<Real>(patch.records[first + offset][component]),
-                  Simd<Real>(patch.records[second + offset][component]));
+  THAWSLIDE_ALWAYS_INLINE Simd<double> operator()(std::size_t offset, std::size_t component) const {
+    return select(in_first, Simd<double>(patch.records[first + offset][component]),
+                  Simd<double>(patch.records[second + offset][component]));
   }
 };
 template <int Dim, int Components>
 struct OwnNodes {
   const Patch<Dim, Components>& patch;
-  typename Simd<Real>::Whole first;  // index of the first number, by lane
+  typename Simd<double>::Whole first;  // index of the first number, by lane
 
   OwnNodes(const Patch<Dim, Components>& from, const BatchNodes& nodes)
       : patch(from),
-        first(whole_lanes<Real>(nodes.first.data()) * static_cast<std::int32_t>(record_size(Components))) {}
+        first(whole_lanes<double>(nodes.first.data()) * static_cast<std::int32_t>(record_size(Components))) {}
 
-  THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
-    return Simd<Real>::gather(&patch.records[offset][component], first);
+  THAWSLIDE_ALWAYS_INLINE Simd<double> operator()(std::size_t offset, std::size_t component) const {
+    return Simd<double>::gather(&patch.records[offset][component], first);
   }
 };
 
@@ -184,25 +184,25 @@ THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes& nodes, const Patch<Dim
     return read(SharedNodes<Dim, Components>{patch, first});
   }
   if (nodes.runs == 2) {
-    const auto second = static_cast<std::size_t>(nodes.first[simd_width<Real> - 1]);
-    return read(NodesOfTwoRuns<Dim, Components>{patch, first, second, lanes_before<Real>(nodes.second_run_begin)});
+    const auto second = static_cast<std::size_t>(nodes.first[simd_width<double> - 1]);
+    return read(NodesOfTwoRuns<Dim, Components>{patch, first, second, lanes_before<double>(nodes.second_run_begin)});
   }
   return read(OwnNodes<Dim, Components>(patch, nodes));
 }
 
 // Interpolates `Count` components of the surrounding records to the particles.
 template <std::size_t Count, int Dim, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const BatchStencil<Dim, Width>& stencil,
-                                                                   const Patch<Dim, Components>& patch,
-                                                                   std::size_t first_component = 0) {
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<double>, Count> read_nodes(const BatchStencil<Dim, Width>& stencil,
+                                                                     const Patch<Dim, Components>& patch,
+                                                                     std::size_t first_component = 0) {
   return with_fetch(stencil.nodes, patch, [&](const auto& fetch) THAWSLIDE_INLINE_LAMBDA {
     return read_along_axes<Count>(stencil.axis, fetch, first_component);
   });
 }
 template <std::size_t Count, int Dim, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const LinearStencil<Dim>& linear,
-                                                                   const Patch<Dim, Components>& patch,
-                                                                   std::size_t first_component = 0) {
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<double>, Count> read_nodes(const LinearStencil<Dim>& linear,
+                                                                     const Patch<Dim, Components>& patch,
+                                                                     std::size_t first_component = 0) {
   if (linear.nodes.runs == BatchNodes::irregular) {
     const auto corners = linear.corners();
     return read_along_axes<Count>(corners.axis, OwnNodes<Dim, Components>(patch, corners.nodes), first_component);
@@ -225,11 +225,11 @@ struct SpreadWeights {
 // Interpolates one register of the surrounding records to one particle.
 template <int Axis, int Dim, class Register, std::size_t Width>
 THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Register, Width>& spread,
-                                                std::size_t record_size, const Real* records) {
+                                                std::size_t record_size, const double* records) {
   constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
-  Register sum = Real(0);
+  Register sum = 0.0;
   unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    const Real* record = records + k * stride * record_size;
+    const double* record = records + k * stride * record_size;
     if constexpr (Axis == 0) {
       sum += spread.weight[0][k] * Register::load(record);
     } else {
@@ -242,11 +242,11 @@ THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Registe
 // Interpolates all components of the surrounding records, without gradients, to a batch. For irregular nodes, the loop
 // runs over particles with a register of components at a time.
 template <int Dim, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_values(
+THAWSLIDE_ALWAYS_INLINE std::array<Simd<double>, record_size(Components)> read_values(
     const BatchStencil<Dim, Width>& stencil, const Patch<Dim, Components>& patch) {
   using Register = RecordRegister<Components>;
-  constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Register::count;
-  std::array<Simd<Real>, size> values;
+  constexpr std::size_t lanes = simd_width<double>, size = record_size(Components), width = Register::count;
+  std::array<Simd<double>, size> values;
   if (stencil.nodes.runs != BatchNodes::irregular) {
     const auto seen = read_nodes<static_cast<std::size_t>(Components)>(stencil, patch);
     unrolled<static_cast<std::size_t>(Components)>([&](auto c) THAWSLIDE_INLINE_LAMBDA { values[c] = seen.value[c]; });
@@ -255,7 +255,7 @@ THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_val
   Register of_lane[size / width][lanes];
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const SpreadWeights<Dim, Register, Width> spread(stencil, lane);
-    const Real* records = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])].data();
+    const double* records = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])].data();
     unrolled<size / width>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
       of_lane[g][lane] = sum_along_axes<Dim - 1>(spread, size, records + g * width);
     });
@@ -272,12 +272,12 @@ struct Contribution {
   static constexpr std::size_t width = Register::count;  // components per register
   static constexpr std::size_t groups = record_size(static_cast<int>(Components)) / width;
 
-  Simd<Real> value[groups * width];
-  Simd<Real> flux[Dim][width];  // by axis
+  Simd<double> value[groups * width];
+  Simd<double> flux[Dim][width];  // by axis
 
   Contribution() {
-    unrolled<groups * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = Real(0); });
-    unrolled<Dim * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / width][c % width] = Real(0); });
+    unrolled<groups * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = 0.0; });
+    unrolled<Dim * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / width][c % width] = 0.0; });
   }
 };
 

@@ -12,26 +12,26 @@
 namespace thawslide::mpm {
 
 // Friction coefficient of a contact that sticks while it is closed.
-inline constexpr Real rough = std::numeric_limits<Real>::max();
+inline constexpr double rough = std::numeric_limits<double>::max();
 
 struct BetweenBodies {
   std::vector<std::uint8_t> layer_of_body;  // while it moves, by body number; empty: all share nodes
   std::size_t layers = 1;                   // of moving bodies
   bool has_held = false;                    // some bodies are held for a time
-  std::vector<Real> friction;               // coefficient, by layer * layers + other layer
+  std::vector<double> friction;             // coefficient, by layer * layers + other layer
 
   [[nodiscard]] bool any() const { return all_layers() > 1; }
   [[nodiscard]] std::size_t all_layers() const { return has_held ? 2 * layers : layers; }
   [[nodiscard]] bool is_held(std::size_t layer) const { return layer >= layers; }
-  [[nodiscard]] Real friction_between(std::size_t layer, std::size_t other) const {
+  [[nodiscard]] double friction_between(std::size_t layer, std::size_t other) const {
     return friction[layer % layers * layers + other % layers];
   }
 };
 
 // Contribution of contact between bodies to the energy budget [J].
 struct BodyContactWork {
-  Real loss = 0;       // dissipated by impact and friction
-  Real numerical = 0;  // correction of map_back, which counts contact among internal forces
+  double loss = 0;       // dissipated by impact and friction
+  double numerical = 0;  // correction of map_back, which counts contact among internal forces
 
   THAWSLIDE_HD BodyContactWork& operator+=(const BodyContactWork& part) {
     loss += part.loss;

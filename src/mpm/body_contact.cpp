@@ -45,10 +45,10 @@ typename Tile<Dim>::Index shifted(typename Tile<Dim>::Index index, std::size_t a
 
 // Volumes [m3] at the nodes of a block and two more on each side; 0 if there is no block.
 template <int Dim>
-std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim>& grid, const Nodes<Dim>& nodes,
-                                                     std::size_t block) {
+std::array<double, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim>& grid, const Nodes<Dim>& nodes,
+                                                       std::size_t block) {
   using T = Tile<Dim>;
-  std::array<Real, About<Dim, 2>::count> volumes;
+  std::array<double, About<Dim, 2>::count> volumes;
   for (std::size_t k = 0; k < volumes.size(); ++k) {
     typename T::Index tile{};
     int local = 0, direction = 0;
@@ -58,7 +58,7 @@ std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim>& grid
     }
     const std::int32_t there = grid.blocks_about_block(block)[direction];
     volumes[k] = there == KeyIndex::absent
-                     ? Real(0)
+                     ? 0.0
                      : nodes.momentum(static_cast<std::size_t>(there),
                                       static_cast<std::size_t>(local))[MomentumLayout<Dim>::volume];
   }
@@ -67,10 +67,10 @@ std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim>& grid
 
 // Change of a quantity over two cells around a node, along each axis.
 template <int Dim>
-Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& quantity,
-                               const typename Tile<Dim>::Index& node) {
+Vector<double, Dim> change_about(const std::array<double, About<Dim, 2>::count>& quantity,
+                                 const typename Tile<Dim>::Index& node) {
   using Near = About<Dim, 2>;
-  Vector<Real, Dim> change;
+  Vector<double, Dim> change;
   for (std::size_t a = 0; a < Dim; ++a) {
     change[static_cast<int>(a)] =
         quantity[Near::at(shifted<Dim>(node, a, 1))] - quantity[Near::at(shifted<Dim>(node, a, -1))];
@@ -81,9 +81,9 @@ Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& qua
 // Particle that may reach nodes of a block.
 template <int Dim>
 struct ParticleAbout {
-  Vector<Real, Dim> position;         // [m]
-  Vector<Real, Dim - 1> slope;        // of the ground; zero without ground
-  Real half;                          // half size of its box [m]
+  Vector<double, Dim> position;       // [m]
+  Vector<double, Dim - 1> slope;      // of the ground; zero without ground
+  double half;                        // half size of its box [m]
   typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
 };
 
@@ -111,9 +111,8 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {
-        const Real along =
-            grid.mapping().template coordinate<Dim>(particles, at, static_cast<int>(a)) * grid.inverse_cell() +
-            Real(0.5);
+        const double along =
+            grid.mapping().template coordinate<Dim>(particles, at, static_cast<int>(a)) * grid.inverse_cell() + 0.5;
         one.nearest[a] = static_cast<int>(std::floor(along)) - first_node[a];
         reaches = reaches && one.nearest[a] >= -1 && one.nearest[a] <= T::edge;
       }
@@ -128,16 +127,16 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
 // Extent of a particle's box along a normal [m]. The upper and lower sides of the box are parallel to the ground.
 template <int Dim>
 struct Edge {
-  Real along;
+  double along;
   const ParticleAbout<Dim>* of;
 };
 
 // Selects the particles that reach a node; returns the sum of their slopes.
 template <int Dim>
-Vector<Real, Dim - 1> find_seen(const std::vector<ParticleAbout<Dim>>& about, std::size_t node,
-                                std::vector<Edge<Dim>>& seen) {
+Vector<double, Dim - 1> find_seen(const std::vector<ParticleAbout<Dim>>& about, std::size_t node,
+                                  std::vector<Edge<Dim>>& seen) {
   const typename Tile<Dim>::Index here = Tile<Dim>::node({}, static_cast<int>(node));
-  Vector<Real, Dim - 1> slope = Vector<Real, Dim - 1>::Zero();
+  Vector<double, Dim - 1> slope = Vector<double, Dim - 1>::Zero();
   seen.clear();
   for (const ParticleAbout<Dim>& one : about) {
     bool sees = true;
@@ -145,7 +144,7 @@ Vector<Real, Dim - 1> find_seen(const std::vector<ParticleAbout<Dim>>& about, st
       sees = sees && std::abs(one.nearest[a] - here[a]) <= 1;
     }
     if (sees) {
-      seen.push_back({Real(0), &one});
+      seen.push_back({0.0, &one});
       slope += one.slope;
     }
   }
@@ -154,12 +153,12 @@ Vector<Real, Dim - 1> find_seen(const std::vector<ParticleAbout<Dim>>& about, st
 
 // Computes the edges of particles on the side given by a sign; returns the foremost one.
 template <int Dim>
-Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim>>& seen) {
-  Real foremost = -std::numeric_limits<Real>::max();
+double set_edges(const Vector<double, Dim>& normal, double sign, std::vector<Edge<Dim>>& seen) {
+  double foremost = -std::numeric_limits<double>::max();
   for (Edge<Dim>& edge : seen) {
-    Vector<Real, Dim> on_grid = normal;
+    Vector<double, Dim> on_grid = normal;
     on_grid.template head<Dim - 1>() += normal[Dim - 1] * edge.of->slope;
-    const Real stretch = sign * on_grid.cwiseAbs().maxCoeff();
+    const double stretch = sign * on_grid.cwiseAbs().maxCoeff();
     edge.along = edge.of->position.dot(normal) + stretch * edge.of->half;
     foremost = std::max(foremost, sign * edge.along);
   }
@@ -169,17 +168,17 @@ Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim>
 // Gap along a normal between two bodies: the smallest one between particles that face each other across it, or the
 // largest number if there are none. Edges are sorted with the foremost first.
 template <int Dim>
-Real gap_between(const std::vector<Edge<Dim>>& first, const std::vector<Edge<Dim>>& second,
-                 const Vector<Real, Dim>& normal) {
-  Real gap = std::numeric_limits<Real>::max();
+double gap_between(const std::vector<Edge<Dim>>& first, const std::vector<Edge<Dim>>& second,
+                   const Vector<double, Dim>& normal) {
+  double gap = std::numeric_limits<double>::max();
   for (const Edge<Dim>& from : first) {
     for (const Edge<Dim>& to : second) {
       if (to.along - from.along >= gap) {
         break;
       }
-      const Vector<Real, Dim> apart = to.of->position - from.of->position;
-      const Vector<Real, Dim> across = apart - apart.dot(normal) * normal;
-      const Real reach = to.of->half + from.of->half;
+      const Vector<double, Dim> apart = to.of->position - from.of->position;
+      const Vector<double, Dim> across = apart - apart.dot(normal) * normal;
+      const double reach = to.of->half + from.of->half;
       gap = across.squaredNorm() < reach * reach ? to.along - from.along : gap;
     }
   }
@@ -194,8 +193,7 @@ bool BodyContact<Dim>::find_meetings(const Nodes<Dim>& nodes, Pair& pair) {
   constexpr std::size_t mass = MomentumLayout<Dim>::mass;
   bool any = false;
   for (std::size_t k = 0; k < block_nodes; ++k) {
-    pair.at[k].in_contact =
-        nodes.momentum(pair.block, k)[mass] > Real(0) && nodes.momentum(pair.other, k)[mass] > Real(0);
+    pair.at[k].in_contact = nodes.momentum(pair.block, k)[mass] > 0.0 && nodes.momentum(pair.other, k)[mass] > 0.0;
     any = any || pair.at[k].in_contact;
   }
   return any;
@@ -222,10 +220,10 @@ auto BodyContact<Dim>::find_gradients(const SparseGrid<Dim>& grid, const Nodes<D
       Vec sum = Vec::Zero();
       for (int about = 0; about < T::stencil; ++about) {
         typename T::Index node = T::node({}, static_cast<int>(k));
-        Real weight = 1;
+        double weight = 1;
         for (std::size_t a = 0, rest = static_cast<std::size_t>(about); a < Dim; ++a, rest /= 3) {
           node[a] += static_cast<int>(rest % 3) - 1;
-          weight *= rest % 3 == 1 ? Real(0.5) : Real(0.25);
+          weight *= rest % 3 == 1 ? 0.5 : 0.25;
         }
         sum += weight * directions[Near::at(node)][kind];
       }
@@ -248,22 +246,22 @@ void BodyContact<Dim>::find_gaps(const SparseGrid<Dim>& grid, const Particles<Di
     if (!meeting.in_contact) {
       continue;
     }
-    Vector<Real, Dim - 1> slope = find_seen(about, k, edges);
+    Vector<double, Dim - 1> slope = find_seen(about, k, edges);
     slope += find_seen(other_about, k, other_edges);
-    slope /= static_cast<Real>(edges.size() + other_edges.size());
-    Real furthest = -std::numeric_limits<Real>::max();
+    slope /= static_cast<double>(edges.size() + other_edges.size());
+    double furthest = -std::numeric_limits<double>::max();
     for (Vec normal : gradients[k]) {
       normal.template head<Dim - 1>() -= normal[Dim - 1] * slope;  // gradient in space
       normal.normalize();                                          // or zero
-      const Real apart = set_edges<Dim>(normal, Real(-1), other_edges) - set_edges<Dim>(normal, Real(1), edges);
-      const Real by_rounding = Real(1e-9) * grid.cell();  // tolerance for ties: the first one is kept
+      const double apart = set_edges<Dim>(normal, -1.0, other_edges) - set_edges<Dim>(normal, 1.0, edges);
+      const double by_rounding = 1e-9 * grid.cell();  // tolerance for ties: the first one is kept
       if (normal != Vec::Zero() && apart > furthest + by_rounding) {
         furthest = apart;
         meeting.normal = normal;
       }
     }
-    set_edges<Dim>(meeting.normal, Real(1), edges);
-    set_edges<Dim>(meeting.normal, Real(-1), other_edges);
+    set_edges<Dim>(meeting.normal, 1.0, edges);
+    set_edges<Dim>(meeting.normal, -1.0, other_edges);
     std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.along > b.along; });
     std::sort(other_edges.begin(), other_edges.end(), [](const auto& a, const auto& b) { return a.along < b.along; });
     meeting.gap = gap_between(edges, other_edges, meeting.normal);
@@ -272,10 +270,10 @@ void BodyContact<Dim>::find_gaps(const SparseGrid<Dim>& grid, const Particles<Di
 }
 
 template <int Dim>
-void BodyContact<Dim>::exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, Pair& pair) {
+void BodyContact<Dim>::exchange(double mass_damping, double dt, Nodes<Dim>& nodes, Pair& pair) {
   using Layout = MomentumLayout<Dim>;
   const auto trial_velocity = [&](const auto& record) {
-    return Vec(((Real(1) - mass_damping * dt) * vector_at<Dim>(record, Layout::momentum) +
+    return Vec(((1.0 - mass_damping * dt) * vector_at<Dim>(record, Layout::momentum) +
                 dt * vector_at<Dim>(record, Layout::force)) /
                record[Layout::mass]);
   };
@@ -287,19 +285,19 @@ void BodyContact<Dim>::exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, P
     auto& first = nodes.momentum(pair.block, k);
     auto& second = nodes.momentum(pair.other, k);
     const Vec approach = trial_velocity(first) - (pair.other_is_held ? Vec(Vec::Zero()) : trial_velocity(second));
-    const Real closing = approach.dot(meeting.normal);
+    const double closing = approach.dot(meeting.normal);
     const Vec slip = approach - closing * meeting.normal;
-    const Real slip_speed = slip.norm();
+    const double slip_speed = slip.norm();
     const auto impulse = pair.other_is_held ? physics::impulse_on_fixed_body(first[Layout::mass], closing, slip_speed,
                                                                              meeting.gap, dt, pair.friction)
                                             : physics::body_impulse(first[Layout::mass], second[Layout::mass], closing,
                                                                     slip_speed, meeting.gap, dt, pair.friction);
-    meeting.in_contact = impulse.normal > Real(0);
+    meeting.in_contact = impulse.normal > 0.0;
     if (!meeting.in_contact) {
       continue;
     }
     meeting.impulse = impulse.normal * meeting.normal;
-    if (slip_speed > Real(0)) {
+    if (slip_speed > 0.0) {
       meeting.impulse += (impulse.tangential / slip_speed) * slip;
     }
     const Vec force = meeting.impulse / dt;
@@ -310,7 +308,7 @@ void BodyContact<Dim>::exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, P
 
 template <int Dim>
 void BodyContact<Dim>::add_forces(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
-                                  const BetweenBodies& between, const BodySizes& sizes, Real mass_damping, Real dt,
+                                  const BetweenBodies& between, const BodySizes& sizes, double mass_damping, double dt,
                                   Nodes<Dim>& nodes) {
   find_pairs(grid, between);
   parallel_for(first_of_tile_.size() - 1, [&](std::size_t tile) {
@@ -325,7 +323,7 @@ void BodyContact<Dim>::add_forces(const SparseGrid<Dim>& grid, const Particles<D
 }
 
 template <int Dim>
-BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
+BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<double, Dim>& gravity, double dt,
                                                         Nodes<Dim>& nodes) const {
   using Layout = MomentumLayout<Dim>;
   using Work = BodyContactWork;
@@ -339,14 +337,14 @@ BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>&
         }
         auto& mapped = nodes.velocity(pair.block, k);
         auto& other_mapped = nodes.velocity(pair.other, k);
-        const Real mass = nodes.momentum(pair.block, k)[Layout::mass],
-                   other_mass = nodes.momentum(pair.other, k)[Layout::mass];
+        const double mass = nodes.momentum(pair.block, k)[Layout::mass],
+                     other_mass = nodes.momentum(pair.other, k)[Layout::mass];
         const Vec approach = vector_at<Dim>(mapped, 0) - vector_at<Dim>(other_mapped, 0);
-        const Real closing = approach.dot(meeting.normal);
+        const double closing = approach.dot(meeting.normal);
         const auto impulse = pair.other_is_held
-                                 ? physics::impulse_on_fixed_body(mass, closing, Real(0), meeting.gap, dt, Real(0))
-                                 : physics::body_impulse(mass, other_mass, closing, Real(0), meeting.gap, dt, Real(0));
-        const auto turn = [&](std::size_t block, auto& velocity, Real sign, Real of_mass) {
+                                 ? physics::impulse_on_fixed_body(mass, closing, 0.0, meeting.gap, dt, 0.0)
+                                 : physics::body_impulse(mass, other_mass, closing, 0.0, meeting.gap, dt, 0.0);
+        const auto turn = [&](std::size_t block, auto& velocity, double sign, double of_mass) {
           const auto& record = nodes.momentum(block, k);
           const Vec before = vector_at<Dim>(velocity, 0);
           const Vec change = (sign * impulse.normal / of_mass) * meeting.normal;
@@ -357,9 +355,9 @@ BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>&
           work.loss -= transferred.dot(middle);
           work.numerical -= transferred.dot(Vec(middle - before - change)) + internal.dot(change);
         };
-        turn(pair.block, mapped, Real(-1), mass);
+        turn(pair.block, mapped, -1.0, mass);
         if (!pair.other_is_held) {
-          turn(pair.other, other_mapped, Real(1), other_mass);
+          turn(pair.other, other_mapped, 1.0, other_mass);
         }
       }
     }

@@ -20,14 +20,14 @@ class BodyContact {
  public:
   // Adds the contact forces between bodies in this step to nodes.momentum.
   void add_forces(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BetweenBodies& between,
-                  const BodySizes& sizes, Real mass_damping, Real dt, Nodes<Dim>& nodes);
+                  const BodySizes& sizes, double mass_damping, double dt, Nodes<Dim>& nodes);
   // Removes the approach of bodies in contact from the mapped-back velocities, without friction.
-  [[nodiscard]] BodyContactWork constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
+  [[nodiscard]] BodyContactWork constrain_mapped_back(const Vector<double, Dim>& gravity, double dt,
                                                       Nodes<Dim>& nodes) const;
 
  private:
   using T = Tile<Dim>;
-  using Vec = Vector<Real, Dim>;
+  using Vec = Vector<double, Dim>;
   static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
 
   // Contact of two bodies at a node. impulse: on the second one [N s]; opposite on the first.
@@ -35,7 +35,7 @@ class BodyContact {
     bool in_contact = false;
     Vec normal = Vec::Zero();  // from the first body to the second
     Vec impulse = Vec::Zero();
-    Real gap = 0;  // [m]
+    double gap = 0;  // [m]
   };
   // Gradients on the grid along the candidate normals of a node: from both bodies, the first, the second.
   using Gradients = std::array<Vec, 3>;
@@ -44,7 +44,7 @@ class BodyContact {
     std::uint64_t tile;
     std::size_t block, other;
     bool other_is_held;
-    Real friction;
+    double friction;
     std::array<Meeting, block_nodes> at;
   };
 
@@ -54,7 +54,7 @@ class BodyContact {
                                                                          const Nodes<Dim>& nodes, const Pair& pair);
   static void find_gaps(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BodySizes& sizes,
                         const std::array<Gradients, block_nodes>& gradients, Pair& pair);
-  static void exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, Pair& pair);
+  static void exchange(double mass_damping, double dt, Nodes<Dim>& nodes, Pair& pair);
 
   std::vector<Pair> pairs_;                 // by place, then by block
   std::vector<std::size_t> first_of_tile_;  // with the end appended

@@ -13,7 +13,7 @@ namespace thawslide::mpm {
 
 // Half sizes by body, as used by kernels.
 struct SizesOfBodies {
-  const Real *half, *inverse;
+  const double *half, *inverse;
   bool is_uniform;  // there is one body
 
   template <class Particles, class At>
@@ -22,7 +22,7 @@ struct SizesOfBodies {
     if (is_uniform) {
       return {half[0], inverse[0]};
     }
-    const auto of_body = [&](const Real* by_body) {
+    const auto of_body = [&](const double* by_body) {
       return at.each([&](std::uint32_t p) { return by_body[static_cast<std::size_t>(particles.body(p))]; });
     };
     return {of_body(half), of_body(inverse)};
@@ -32,21 +32,21 @@ struct SizesOfBodies {
 class BodySizes {
  public:
   BodySizes() = default;
-  BodySizes(std::initializer_list<Real> halves) {
-    for (const Real half : halves) {
+  BodySizes(std::initializer_list<double> halves) {
+    for (const double half : halves) {
       add(half);
     }
   }
 
-  void add(Real half) {
+  void add(double half) {
     half_.push_back(half);
-    inverse_.push_back(Real(1) / half);
+    inverse_.push_back(1.0 / half);
   }
-  [[nodiscard]] Real half(std::size_t body) const { return half_[body]; }
+  [[nodiscard]] double half(std::size_t body) const { return half_[body]; }
   // The same in another unit.
-  [[nodiscard]] BodySizes times(Real factor) const {
+  [[nodiscard]] BodySizes times(double factor) const {
     BodySizes other;
-    for (const Real half : half_) {
+    for (const double half : half_) {
       other.add(factor * half);
     }
     return other;
@@ -60,7 +60,7 @@ class BodySizes {
   }
 
  private:
-  std::vector<Real> half_, inverse_;
+  std::vector<double> half_, inverse_;
 };
 
 }  // namespace thawslide::mpm

@@ -28,7 +28,7 @@ template <int FluxGroup, std::size_t First, std::size_t Carried, int Dim, int Co
 class CellSums {
   using Scatter = Contribution<Dim, Carried>;
   using Register = typename Scatter::Register;
-  static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components);
+  static constexpr std::size_t lanes = simd_width<double>, size = record_size(Components);
   static constexpr std::size_t groups = Scatter::groups, width = Scatter::width, nodes_per_axis = 3;
   static constexpr std::size_t layers = Dim == 3 ? nodes_per_axis : 1, layer_nodes = nodes_per_axis * nodes_per_axis;
   static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
@@ -53,7 +53,7 @@ class CellSums {
         ++last;
       }
       const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.continues;
-      Real* records = patch_.records[static_cast<std::size_t>(nodes[first])].data() + First;
+      double* records = patch_.records[static_cast<std::size_t>(nodes[first])].data() + First;
       unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
         add_particles<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, begins, ends, sums_[g],
                                                           records + g * width);
@@ -69,12 +69,11 @@ class CellSums {
   THAWSLIDE_ALWAYS_INLINE static void add_particles(const BatchStencil<Dim>& stencil, std::size_t first,
                                                     std::size_t last, const Register (&value)[lanes],
                                                     const Register (&flux)[Dim][lanes], bool begins, bool ends,
-                                                    Register (&of_cell)[layers * layer_nodes], Real* records) {
+                                                    Register (&of_cell)[layers * layer_nodes], double* records) {
     for (std::size_t layer = 0; layer < layers; ++layer) {
       Register sums[layer_nodes];
-      unrolled<layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-        sums[k] = begins ? Register(Real(0)) : of_cell[layer * layer_nodes + k];
-      });
+      unrolled<layer_nodes>(
+          [&](auto k) THAWSLIDE_INLINE_LAMBDA { sums[k] = begins ? Register(0.0) : of_cell[layer * layer_nodes + k]; });
       for (std::size_t lane = first; lane < last; ++lane) {
         const auto weight = [&](std::size_t axis, std::size_t k)
                                 THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].weight[k][lane]); };
@@ -106,7 +105,7 @@ class CellSums {
       }
       unrolled<layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
         if (ends) {
-          Real* record = records + CellNodes<Dim>::index(layer * layer_nodes + k) * size;
+          double* record = records + CellNodes<Dim>::index(layer * layer_nodes + k) * size;
           (Register::load(record) + sums[k]).store(record);
         } else {
           of_cell[layer * layer_nodes + k] = sums[k];
@@ -126,7 +125,7 @@ template <bool HasFlux, std::size_t First, std::size_t Carried, int Dim, int Com
 class LinearCellSums {
   using Scatter = Contribution<Dim, Carried>;
   using Register = typename Scatter::Register;
-  static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Scatter::width;
+  static constexpr std::size_t lanes = simd_width<double>, size = record_size(Components), width = Scatter::width;
   static constexpr std::size_t nodes = CellNodes<Dim>::count;
   static_assert(Scatter::groups == 1 && First % width == 0 && First + width <= size);
 
@@ -150,7 +149,7 @@ class LinearCellSums {
     const auto& cells = linear.nodes.first;
     for (std::size_t lane = 0; lane < count; ++lane) {
       if (lane > 0 ? cells[lane] != cells[lane - 1] : !is_open_) {
-        sums_.fill(Register(Real(0)));
+        sums_.fill(Register(0.0));
       }
       add_particle(corners, lane, value[lane], flux, &sums_[static_cast<std::size_t>(corners.first_in_cell[lane])]);
       if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !linear.nodes.continues) {
@@ -200,9 +199,9 @@ class LinearCellSums {
   }
 
   void end_cell(std::size_t first_node) {
-    Real* records = patch_.records[first_node].data() + First;
+    double* records = patch_.records[first_node].data() + First;
     unrolled<nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-      Real* record = records + CellNodes<Dim>::index(k) * size;
+      double* record = records + CellNodes<Dim>::index(k) * size;
       (Register::load(record) + sums_[k]).store(record);
     });
   }
@@ -214,13 +213,13 @@ class LinearCellSums {
 
 // Contribution of a batch to min-reduced components.
 template <int Dim>
-using GapsOfBatch = GapsToPlanes<Simd<Real>, Dim, const Patch<Dim, components_of<Planes, Dim>>*>;
+using GapsOfBatch = GapsToPlanes<Simd<double>, Dim, const Patch<Dim, components_of<Planes, Dim>>*>;
 
 // Minimum of component `Component` over a patch: the smallest gap between a node's plane and the particles that reach
 // the node. Independent of the order.
 template <std::size_t Component, int Dim, int Components>
 class PatchMinima {
-  static constexpr Real largest = std::numeric_limits<Real>::max();
+  static constexpr double largest = std::numeric_limits<double>::max();
 
  public:
   // rows: rows in which the particles have nodes (Tile::rows_from).
@@ -238,33 +237,34 @@ class PatchMinima {
   // Adds the next `count` particles.
   THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim>& stencil, std::size_t count, const GapsOfBatch<Dim>& gaps) {
     const BatchNodes& nodes = stencil.nodes;
-    const auto in_first = lanes_before<Real>(nodes.runs == 1 ? simd_width<Real> : nodes.second_run_begin);
+    const auto in_first = lanes_before<double>(nodes.runs == 1 ? simd_width<double> : nodes.second_run_begin);
     with_fetch(nodes, *gaps.planes, [&](const auto& fetch) {
       for_each_node<Dim>(
-          stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
-            const Simd<Real> gap =
+          stencil.axis, 0, [&](std::size_t offset, Simd<double> weight, const Vector<Simd<double>, Dim>& /*slope*/) {
+            const Simd<double> gap =
                 max(gaps.least, gap_to_plane<Dim>(gaps.position, [&](std::size_t component) THAWSLIDE_INLINE_LAMBDA {
                       return fetch(offset, component);
                     }));
             // Round-off decides whether a box that ends at the edge of a node's support overlaps it.
-            const Simd<Real> seen = select(weight > round_off, gap, Simd<Real>(largest));
+            const Simd<double> seen = select(weight > round_off, gap, Simd<double>(largest));
             if (nodes.runs == BatchNodes::irregular) {
               for (std::size_t lane = 0; lane < count; ++lane) {
                 lower(nodes.first[lane], offset, seen[lane]);
               }
               return;
             }
-            lower(nodes.first[0], offset, smallest(select(in_first, seen, Simd<Real>(largest))));
+            lower(nodes.first[0], offset, smallest(select(in_first, seen, Simd<double>(largest))));
             if (nodes.runs == 2) {
-              lower(nodes.first[simd_width<Real> - 1], offset, smallest(select(in_first, Simd<Real>(largest), seen)));
+              lower(nodes.first[simd_width<double> - 1], offset,
+                    smallest(select(in_first, Simd<double>(largest), seen)));
             }
           });
     });
   }
 
  private:
-  THAWSLIDE_ALWAYS_INLINE void lower(std::int32_t first_node, std::size_t offset, Real seen) {
-    Real& known = patch_.records[static_cast<std::size_t>(first_node) + offset][Component];
+  THAWSLIDE_ALWAYS_INLINE void lower(std::int32_t first_node, std::size_t offset, double seen) {
+    double& known = patch_.records[static_cast<std::size_t>(first_node) + offset][Component];
     known = std::min(known, seen);
   }
 

@@ -15,12 +15,12 @@ namespace thawslide::mpm {
 // Box that moves along one axis and prescribes that component of velocity at the nodes inside.
 template <int Dim>
 struct RigidFrame {
-  Vector<Real, Dim> lower, upper;  // at t = 0 [m], relative to the domain's lower corner
+  Vector<double, Dim> lower, upper;  // at t = 0 [m], relative to the domain's lower corner
   int axis = 0;
-  Real velocity = 0;  // [m/s]
+  double velocity = 0;  // [m/s]
 
-  [[nodiscard]] Vector<Real, Dim> shift(Real time) const {
-    Vector<Real, Dim> moved = Vector<Real, Dim>::Zero();
+  [[nodiscard]] Vector<double, Dim> shift(double time) const {
+    Vector<double, Dim> moved = Vector<double, Dim>::Zero();
     moved[axis] = velocity * time;
     return moved;
   }
@@ -32,11 +32,11 @@ struct Constraints : DomainFaces<Dim> {
   std::uint64_t first_held_layer = std::numeric_limits<std::uint64_t>::max();  // of the grid, and those after it
 
   // Sets the prescribed components of a node's momentum; true if a frame has set one.
-  bool apply(const Vector<Real, Dim>& position, Real mass, Real time, Vector<Real, Dim>& momentum) const {
+  bool apply(const Vector<double, Dim>& position, double mass, double time, Vector<double, Dim>& momentum) const {
     this->apply_faces(position, momentum);
     bool in_frame = false;
     for (const RigidFrame<Dim>& frame : frames) {
-      const Vector<Real, Dim> in_frame_position = position - frame.shift(time);
+      const Vector<double, Dim> in_frame_position = position - frame.shift(time);
       if ((in_frame_position.array() >= frame.lower.array()).all() &&
           (in_frame_position.array() <= frame.upper.array()).all()) {
         momentum[frame.axis] = mass * frame.velocity;
@@ -47,7 +47,7 @@ struct Constraints : DomainFaces<Dim> {
   }
 
   // True if apply may set a component at positions between two corners.
-  [[nodiscard]] bool may_apply(const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper, Real time) const {
+  [[nodiscard]] bool may_apply(const Vector<double, Dim>& lower, const Vector<double, Dim>& upper, double time) const {
     for (int a = 0; a < Dim; ++a) {
       if ((this->at_lower(lower[a], a) && this->faces[2 * a] != BoundaryKind::open) ||
           (this->at_upper(upper[a], a) && this->faces[2 * a + 1] != BoundaryKind::open)) {
@@ -55,7 +55,7 @@ struct Constraints : DomainFaces<Dim> {
       }
     }
     return std::any_of(frames.begin(), frames.end(), [&](const RigidFrame<Dim>& frame) {
-      const Vector<Real, Dim> shift = frame.shift(time);
+      const Vector<double, Dim> shift = frame.shift(time);
       return ((upper - shift).array() >= frame.lower.array()).all() &&
              ((lower - shift).array() <= frame.upper.array()).all();
     });
@@ -66,7 +66,7 @@ struct Constraints : DomainFaces<Dim> {
 template <int Dim>
 class BlockConstraints {
  public:
-  BlockConstraints(const SparseGrid<Dim>& grid, const Constraints<Dim>& constraints, std::size_t block, Real time)
+  BlockConstraints(const SparseGrid<Dim>& grid, const Constraints<Dim>& constraints, std::size_t block, double time)
       : grid_(&grid),
         constraints_(&constraints),
         block_(block),
@@ -80,7 +80,7 @@ class BlockConstraints {
   // True for the nodes of held bodies, which are fixed.
   [[nodiscard]] bool is_held() const { return is_held_; }
   // Applies Constraints::apply at a node of the block.
-  bool apply(std::size_t node, Real mass, Vector<Real, Dim>& momentum) const {
+  bool apply(std::size_t node, double mass, Vector<double, Dim>& momentum) const {
     if (is_held_) {
       momentum.setZero();
       return false;
@@ -92,7 +92,7 @@ class BlockConstraints {
   const SparseGrid<Dim>* grid_;
   const Constraints<Dim>* constraints_;
   std::size_t block_;
-  Real time_;
+  double time_;
   bool is_held_, any_;
 };
 
@@ -103,7 +103,7 @@ struct NodeConstraints {
   std::size_t node;
 
   [[nodiscard]] bool any() const { return of_block.any(); }
-  bool apply(Real mass, Vector<Real, Dim>& momentum) const { return of_block.apply(node, mass, momentum); }
+  bool apply(double mass, Vector<double, Dim>& momentum) const { return of_block.apply(node, mass, momentum); }
 };
 
 }  // namespace thawslide::mpm

@@ -11,16 +11,14 @@ using physics::BoundaryKind;
 
 template <int Dim>
 struct DomainFaces {
-  Vector<Real, Dim> extent;          // upper corner of the domain [m]; the lower corner is the origin
+  Vector<double, Dim> extent;        // upper corner of the domain [m]; the lower corner is the origin
   BoundaryKind faces[2 * Dim] = {};  // lower and upper face of each axis
 
-  [[nodiscard]] THAWSLIDE_HD bool at_lower(Real along, int a) const { return along <= round_off * extent[a]; }
-  [[nodiscard]] THAWSLIDE_HD bool at_upper(Real along, int a) const {
-    return along >= extent[a] * (Real(1) - round_off);
-  }
+  [[nodiscard]] THAWSLIDE_HD bool at_lower(double along, int a) const { return along <= round_off * extent[a]; }
+  [[nodiscard]] THAWSLIDE_HD bool at_upper(double along, int a) const { return along >= extent[a] * (1.0 - round_off); }
 
   // Sets the prescribed components of the momentum of a node at a position.
-  THAWSLIDE_HD void apply_faces(const Vector<Real, Dim>& position, Vector<Real, Dim>& momentum) const {
+  THAWSLIDE_HD void apply_faces(const Vector<double, Dim>& position, Vector<double, Dim>& momentum) const {
     for (int a = 0; a < Dim; ++a) {
       const BoundaryKind kind = at_lower(position[a], a)   ? faces[2 * a]
                                 : at_upper(position[a], a) ? faces[2 * a + 1]
@@ -28,7 +26,7 @@ struct DomainFaces {
       if (kind == BoundaryKind::fixed) {
         momentum.setZero();
       } else if (kind == BoundaryKind::roller) {
-        momentum[a] = Real(0);
+        momentum[a] = 0.0;
       }
     }
   }

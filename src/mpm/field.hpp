@@ -147,19 +147,19 @@ class Field final : public FieldBase {
     (*this)(one.particle[0], component) = value;
   }
   // Integers, converted from and to a real type.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const ScalarIndex& one) const {
-    return static_cast<Real>((*this)(one.particle[0]));
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE double load_whole(const ScalarIndex& one) const {
+    return static_cast<double>((*this)(one.particle[0]));
   }
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<Real> load_whole(const SimdBatch& batch) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<double> load_whole(const SimdBatch& batch) const {
     if (batch.contiguous) {
-      return Simd<Real>::load_whole(&(*this)(batch.particle[0]));
+      return Simd<double>::load_whole(&(*this)(batch.particle[0]));
     }
-    return Simd<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
+    return Simd<double>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
   }
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const ScalarIndex& one, Real value) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const ScalarIndex& one, double value) {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const SimdBatch& batch, const Simd<Real>& values) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const SimdBatch& batch, const Simd<double>& values) {
     if (batch.contiguous) {
       values.store_whole(&(*this)(batch.particle[0]));
       return;

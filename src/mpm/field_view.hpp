@@ -34,10 +34,10 @@ struct FieldView {
     (*this)(one.particle[0], component) = value;
   }
   // Integers, converted from and to a real type.
-  [[nodiscard]] THAWSLIDE_HD Real load_whole(const ScalarIndex& one) const {
-    return static_cast<Real>((*this)(one.particle[0]));
+  [[nodiscard]] THAWSLIDE_HD double load_whole(const ScalarIndex& one) const {
+    return static_cast<double>((*this)(one.particle[0]));
   }
-  THAWSLIDE_HD void store_whole(const ScalarIndex& one, Real value) const {
+  THAWSLIDE_HD void store_whole(const ScalarIndex& one, double value) const {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
   // All components of vectors and tensors.

@@ -98,7 +98,7 @@ template <int Dim>
 struct ApplyFiltered {
   using Reads = RecordList<FilterTotal>;
   using Adds = RecordList<Velocity>;
-  using Totals = Real;
+  using Totals = double;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -108,7 +108,7 @@ struct ApplyFiltered {
     const Vector<Value, Dim> old = particles.velocity.template load_vector<Dim>(at);
     const Vector<Value, Dim> velocity = rigid_velocity<FilterTotal, Dim>(seen, position);
     const Value mass = particles.mass.load(at);
-    at.add_to(gained, Real(0.5) * mass * (velocity - old).dot(velocity + old));
+    at.add_to(gained, 0.5 * mass * (velocity - old).dot(velocity + old));
     particles.velocity.store_vector(at, velocity);
     carry<0>(Vector<Value, Dim>(mass * velocity), added.template of<Velocity>());
   }

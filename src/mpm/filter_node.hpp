@@ -12,23 +12,23 @@
 namespace thawslide::mpm {
 
 // Mean square distance [m2] of mass from an axis below which rotation around it is ignored. cell: mesh size [m].
-inline THAWSLIDE_HD Real least_square_of(Real cell) {
-  constexpr Real least = static_cast<Real>(1e-8);  // in cells squared
+inline THAWSLIDE_HD double least_square_of(double cell) {
+  constexpr double least = 1e-8;  // in cells squared
   return least * cell * cell;
 }
 
 // Next increment of a node's rigid motion from the particle sums: the fit itself, or the last increment minus the fit.
 // Records: of Momentum, FilterMoments, FilterMomentum, FilterIncrement and FilterTotal.
 template <int Dim, class MassRecord, class Moments, class Brought, class Increment, class Total>
-THAWSLIDE_HD void make_increment(bool first, Real least_square, const MassRecord& mass, const Moments& moments,
+THAWSLIDE_HD void make_increment(bool first, double least_square, const MassRecord& mass, const Moments& moments,
                                  const Brought& brought, Increment& increment, Total& total) {
   constexpr int turns = physics::rotations<Dim>, size = components_of<FilterMomentum, Dim>;
   if (first) {
     for (std::size_t c = 0; c < record_size(size); ++c) {
-      increment[c] = total[c] = Real(0);
+      increment[c] = total[c] = 0.0;
     }
   }
-  if (!(mass[MomentumLayout<Dim>::mass] > Real(0))) {
+  if (!(mass[MomentumLayout<Dim>::mass] > 0.0)) {
     return;
   }
   const physics::MassPoints<Dim> points{mass[MomentumLayout<Dim>::mass], vector_at<Dim>(moments, FilterMoments::first),
@@ -36,11 +36,11 @@ THAWSLIDE_HD void make_increment(bool first, Real least_square, const MassRecord
                                         vector_at<Dim>(brought, FilterMomentum::momentum),
                                         vector_at<turns>(brought, Dim)};
   const physics::RigidMotion<Dim> motion = physics::nearest_rigid_motion(points, least_square);
-  Vector<Real, size> fit;
+  Vector<double, size> fit;
   fit << motion.at_origin, motion.rotation;
-  const Vector<Real, size> next = first ? fit : Vector<Real, size>(vector_at<size>(increment, 0) - fit);
+  const Vector<double, size> next = first ? fit : Vector<double, size>(vector_at<size>(increment, 0) - fit);
   set_vector<size>(increment, 0, next);
-  set_vector<size>(total, 0, Vector<Real, size>(vector_at<size>(total, 0) + next));
+  set_vector<size>(total, 0, Vector<double, size>(vector_at<size>(total, 0) + next));
 }
 
 }  // namespace thawslide::mpm

@@ -53,10 +53,10 @@ struct Transformation {
       found.along = -HUGE_VAL;
       return found;
     }
-    found.mass = static_cast<double>(particles.mass(p));
+    found.mass = particles.mass(p);
     for (int a = 0; a < Dim - 1; ++a) {
       const auto axis = static_cast<std::size_t>(a);
-      found.position[axis] = static_cast<double>(particles.position(p, a)) + origin[axis];
+      found.position[axis] = particles.position(p, a) + origin[axis];
     }
     found.along = line.segments == 0 ? found.position[0] : line.project(found.position).along;
     return found;

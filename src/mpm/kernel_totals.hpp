@@ -9,10 +9,10 @@ namespace thawslide::mpm {
 
 // Energies of one step [J].
 struct StressWork {
-  Real total = 0;    // of the constitutive stress on the strain
-  Real plastic = 0;  // dissipated in plastic strain
-  Real viscous = 0;  // dissipated by viscosity
-  Real pore = 0;     // of the pore pressure on the volume, if it acts inside the body
+  double total = 0;    // of the constitutive stress on the strain
+  double plastic = 0;  // dissipated in plastic strain
+  double viscous = 0;  // dissipated by viscosity
+  double pore = 0;     // of the pore pressure on the volume, if it acts inside the body
 
   THAWSLIDE_HD StressWork& operator+=(const StressWork& part) {
     total += part.total;

@@ -29,13 +29,13 @@ struct Mapping {
 // Inverse of the thickness [1/m] of a layer of cells at particles, along its normal.
 template <int Dim, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value inverse_layer(const Particles& particles, const At& at,
-                                                                      Real inverse_cell) {
+                                                                      double inverse_cell) {
   using Value = typename At::Value;
   if (!particles.linear_slope.is_kept()) {
     return Value(inverse_cell);
   }
   const auto slope = particles.linear_slope.template load_vector<Dim - 1>(at);
-  return sqrt(Value(Real(1)) + slope.squaredNorm()) * inverse_cell;
+  return sqrt(Value(1.0) + slope.squaredNorm()) * inverse_cell;
 }
 
 // Mapping at a particle, or at the particles of a batch. slope: of the ground, by the shape functions of a record.

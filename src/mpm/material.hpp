@@ -9,9 +9,9 @@ namespace thawslide::mpm {
 struct MaterialModel {
   physics::ConstitutiveLaw law;
   physics::Elastic elastic;
-  bool gaps_close_first = false;    // physics/tension_gap.hpp
-  Real viscosity_time = 0;          // Kelvin-Voigt [s]
-  Real hydraulic_conductivity = 0;  // [m/s]
+  bool gaps_close_first = false;      // physics/tension_gap.hpp
+  double viscosity_time = 0;          // Kelvin-Voigt [s]
+  double hydraulic_conductivity = 0;  // [m/s]
 };
 
 }  // namespace thawslide::mpm

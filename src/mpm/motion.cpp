@@ -38,9 +38,9 @@ void split_total_stress(Particles<Dim>& particles, std::size_t first) {
 }
 
 template <int Dim>
-Real momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
-                      Nodes<Dim>& nodes) {
-  Real of_walls = 0;
+double momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                        Nodes<Dim>& nodes) {
+  double of_walls = 0;
   with_weights(model, [&](const auto& weights) {
     with_width<Dim>(model.width, [&](const auto& width) {
       using Width = std::decay_t<decltype(width)>;
@@ -59,11 +59,11 @@ Real momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, co
 }
 
 template <int Dim>
-Real move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
-                    Nodes<Dim>& nodes) {
-  Real particle_kinetic = 0;
+double move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, double dt,
+                      Nodes<Dim>& nodes) {
+  double particle_kinetic = 0;
   with_weights(model, [&](const auto& weights) {
-    const Real pic_fraction = is_affine<std::decay_t<decltype(weights)>> ? Real(1) : model.pic_fraction;
+    const double pic_fraction = is_affine<std::decay_t<decltype(weights)>> ? 1.0 : model.pic_fraction;
     particle_kinetic =
         std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim>{pic_fraction, dt}));
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
@@ -74,17 +74,19 @@ Real move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, cons
 }
 
 template <int Dim>
-InvalidParticle update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower,
-                                 const Vector<Real, Dim>& upper) {
+InvalidParticle update_positions(Particles<Dim>& particles, const Vector<double, Dim>& lower,
+                                 const Vector<double, Dim>& upper) {
   return for_particles_in_memory(particles, UpdatePosition<Dim>{lower, upper});
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
-  template void split_total_stress<Dim>(Particles<Dim>&, std::size_t);                                                \
-  template Real momentum_to_grid<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Nodes<Dim>&); \
-  template Real move_particles<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Real,           \
-                                    Nodes<Dim>&);                                                                     \
-  template InvalidParticle update_positions<Dim>(Particles<Dim>&, const Vector<Real, Dim>&, const Vector<Real, Dim>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                              \
+  template void split_total_stress<Dim>(Particles<Dim>&, std::size_t);                                          \
+  template double momentum_to_grid<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&,       \
+                                        Nodes<Dim>&);                                                           \
+  template double move_particles<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, double, \
+                                      Nodes<Dim>&);                                                             \
+  template InvalidParticle update_positions<Dim>(Particles<Dim>&, const Vector<double, Dim>&,                   \
+                                                 const Vector<double, Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -23,18 +23,18 @@ template <int Dim>
 struct MotionModel {
   [[nodiscard]] bool viscous() const {
     return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialModel& material) { return material.viscosity_time > Real(0); });
+                       [](const MaterialModel& material) { return material.viscosity_time > 0.0; });
   }
 
   ShapeFunction shape = ShapeFunction::ugimp;
   PrescribedSides<Dim> sides;
   TransferKind transfer = TransferKind::flip_pic;
-  Real pic_fraction = 0;      // of TransferKind::flip_pic; 0: FLIP
-  int filter_order = 0;       // of the velocity filter (mpm/velocity_filter.hpp); 0: none
-  SectionWidth width;         // of a 2D section
-  Vector<Real, Dim> gravity;  // [m/s2]
-  Real mass_damping = 0;      // [1/s]
-  BodySizes sizes;            // of particles, in cells
+  double pic_fraction = 0;      // of TransferKind::flip_pic; 0: FLIP
+  int filter_order = 0;         // of the velocity filter (mpm/velocity_filter.hpp); 0: none
+  SectionWidth width;           // of a 2D section
+  Vector<double, Dim> gravity;  // [m/s2]
+  double mass_damping = 0;      // [1/s]
+  BodySizes sizes;              // of particles, in cells
   std::vector<MaterialModel> materials;
   physics::Phases phases;
   bool effective_stress = false;  // stress is effective: the pore pressure also acts inside the body
@@ -48,26 +48,26 @@ void split_total_stress(Particles<Dim>& particles, std::size_t first = 0);
 // Transfers particle mass, momentum, force (Eq. 12) and volume to the nodes. Returns the force of the walls along x [N]
 // if the section width varies.
 template <int Dim>
-Real momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
-                      Nodes<Dim>& nodes);
+double momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                        Nodes<Dim>& nodes);
 
 // Computes new velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign)
 // from nodal motion; then adds the particles' momentum to the patches of nodes.velocity (MUSL), without summing these.
 // update_positions applies the displacement. Returns the kinetic energy gained by particles minus sum p_i.dv_i over the
 // nodes [J]; sum m |dv_p|^2/2 in FLIP. Subtracting sum m_i |dv_i|^2/2 gives the energy created by the transfers.
 template <int Dim>
-Real move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
-                    Nodes<Dim>& nodes);
+double move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, double dt,
+                      Nodes<Dim>& nodes);
 
 // Updates strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back
 // velocities.
 template <int Dim>
 Deformed update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
-                                    const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes);
+                                    const MotionModel<Dim>& model, double dt, Nodes<Dim>& nodes);
 
 // Applies the displacement of the step; returns a particle that is not finite or outside [lower, upper].
 template <int Dim>
-[[nodiscard]] InvalidParticle update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower,
-                                               const Vector<Real, Dim>& upper);
+[[nodiscard]] InvalidParticle update_positions(Particles<Dim>& particles, const Vector<double, Dim>& lower,
+                                               const Vector<double, Dim>& upper);
 
 }  // namespace thawslide::mpm

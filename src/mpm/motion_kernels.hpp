@@ -16,11 +16,11 @@ template <int Dim, class Width = EvenWidth>
 struct AddMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<Momentum>;
-  using Totals = std::conditional_t<Width::varies, Real, NoTotals>;
+  using Totals = std::conditional_t<Width::varies, double, NoTotals>;
 
-  Vector<Real, Dim> gravity;  // [m/s2]
-  bool effective_stress;      // pore pressure also acts inside the body
-  bool viscous;               // at least one material is viscous
+  Vector<double, Dim> gravity;  // [m/s2]
+  bool effective_stress;        // pore pressure also acts inside the body
+  bool viscous;                 // at least one material is viscous
   Width width{};
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -113,9 +113,9 @@ template <int Dim>
 struct Move {
   using Reads = RecordList<Motion>;
   using Adds = RecordList<Velocity>;
-  using Totals = Real;
+  using Totals = double;
 
-  Real pic_fraction, dt;
+  double pic_fraction, dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -133,12 +133,12 @@ struct Move {
     const VectorOfValues old = particles.velocity.template load_vector<Dim>(at);
     const VectorOfValues change = Value(dt) * acceleration;
     const VectorOfValues flip = old + change;
-    const VectorOfValues pic = middle + Value(Real(0.5)) * change;
+    const VectorOfValues pic = middle + Value(0.5) * change;
     const VectorOfValues towards_pic = Value(pic_fraction) * (pic - flip);
     const VectorOfValues velocity = flip + towards_pic;
     const Value mass = particles.mass.load(at);
     particles.velocity.store_vector(at, velocity);
-    at.add_to(kinetic, mass * (Real(0.5) * (change + towards_pic).squaredNorm() + old.dot(towards_pic)));
+    at.add_to(kinetic, mass * (0.5 * (change + towards_pic).squaredNorm() + old.dot(towards_pic)));
     auto& mapped_back = added.template of<Velocity>();
     for (std::size_t a = 0; a < Dim; ++a) {
       mapped_back.value[a] = mass * velocity[static_cast<int>(a)];
@@ -152,9 +152,9 @@ template <int Dim>
 struct MoveAffine {
   using Reads = RecordList<AffineMotion>;
   using Adds = RecordList<AffineVelocity>;
-  using Totals = Real;
+  using Totals = double;
 
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -165,7 +165,7 @@ struct MoveAffine {
     const Square change = Value(dt) * gradient_of(seen.template read<AffineMotion, Dim>(Layout::acceleration));
     const Square middle = gradient_of(seen.template read<AffineMotion, Dim>(Layout::middle_velocity));
     const Square moment = seen.weights.affine_moment(affine_velocity<Dim>(particles, at));
-    const Square velocity = middle + Value(Real(0.5)) * change;
+    const Square velocity = middle + Value(0.5) * change;
     particles.affine_velocity.store_vector(at, velocity.reshaped());
     at.add_to(kinetic, -particles.mass.load(at) * moment.cwiseProduct(seen.weights.affine_on_grid(change)).sum());
     add_affine_momentum<AffineVelocity, Dim>(particles, at, seen, added);

@@ -54,12 +54,12 @@ struct Nodes {
 
 // Position [m, relative to the domain's lower corner] of a node of a block.
 template <int Dim>
-Vector<Real, Dim> node_position(const SparseGrid<Dim>& grid, std::size_t block, std::size_t node) {
+Vector<double, Dim> node_position(const SparseGrid<Dim>& grid, std::size_t block, std::size_t node) {
   using T = Tile<Dim>;
   const typename T::Index index = T::node(T::index(grid.blocks()[block]), static_cast<int>(node));
-  Vector<Real, Dim> position;
+  Vector<double, Dim> position;
   for (int a = 0; a < Dim; ++a) {
-    position[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * grid.cell();
+    position[a] = static_cast<double>(index[static_cast<std::size_t>(a)]) * grid.cell();
   }
   return position;
 }

@@ -21,19 +21,19 @@ template <int Dim, bool HasFlux>
 struct OneFlux {};
 template <int Dim>
 struct OneFlux<Dim, true> {
-  Real flux[Dim][record_step] = {};
+  double flux[Dim][record_step] = {};
 };
 template <int Dim, std::size_t Components, bool HasFlux>
 struct OneContribution : OneFlux<Dim, HasFlux> {
   static constexpr std::size_t size = record_size(static_cast<int>(Components));
   static constexpr std::size_t width = record_step;  // components with a flux
 
-  Real value[size] = {};
+  double value[size] = {};
 };
 
 // Contribution to min-reduced components. planes: consecutive records of the tile's patch.
 template <int Dim>
-using OneGaps = GapsToPlanes<Real, Dim, const Real*>;
+using OneGaps = GapsToPlanes<double, Dim, const double*>;
 
 // Contribution of one particle to a record, by name.
 template <class Name, int Dim>
@@ -44,7 +44,7 @@ using CarriedByOne = std::conditional_t<IsMinReduced<Name>, OneGaps<Dim>,
 // reach; and, along each axis, whether the nearest node lies on a side of the domain that prescribes velocity.
 template <int Dim>
 struct OneGridPosition {
-  Vector<Real, Dim> offset;
+  Vector<double, Dim> offset;
   std::size_t first_node;
   std::array<bool, static_cast<std::size_t>(Dim)> at_side;
 };
@@ -52,7 +52,7 @@ struct OneGridPosition {
 // Weights by axis, and place in the patch of the lowest node.
 template <int Dim, std::size_t Width>
 struct OneStencil {
-  std::array<AxisWeights<Real, Width>, static_cast<std::size_t>(Dim)> axis;
+  std::array<AxisWeights<double, Width>, static_cast<std::size_t>(Dim)> axis;
   std::uint32_t first = 0;
   // index of that node along each axis, among the 3 nodes of the cell
   std::array<std::uint8_t, static_cast<std::size_t>(Dim)> in_cell{};
@@ -65,27 +65,26 @@ struct OneWeights {
 
   OneStencil<Dim, 2> linear;
   OneStencil<Dim, 3> momentum, affine;
-  Vector<Real, Dim> moment;
-  MappingAt<Dim, Real> mapping, linear_mapping;
+  Vector<double, Dim> moment;
+  MappingAt<Dim, double> mapping, linear_mapping;
 
   template <class Particles>
   THAWSLIDE_HD OneWeights(const Mapping& grid, const Particles& particles, const ScalarIndex& at)
       : mapping(grid, particles.ground_slope, at), linear_mapping(grid, particles.linear_slope, at) {}
 
   // Weights at the corners of the grid cell that contains the particle.
-  THAWSLIDE_HD void set_linear(const OneGridPosition<Dim>& at, Real inverse_cell) {
+  THAWSLIDE_HD void set_linear(const OneGridPosition<Dim>& at, double inverse_cell) {
     linear.first = static_cast<std::uint32_t>(at.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real along = at.offset[static_cast<int>(a)];
-      const bool right = along >= Real(0);
+      const double along = at.offset[static_cast<int>(a)];
+      const bool right = along >= 0.0;
       linear.in_cell[a] = right ? 1 : 0;
       linear.first += right ? static_cast<std::uint32_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a))) : 0u;
-      linear.axis[a] = {{right ? Real(1) - along : -along, right ? along : Real(1) + along},
-                        {-inverse_cell, inverse_cell}};
+      linear.axis[a] = {{right ? 1.0 - along : -along, right ? along : 1.0 + along}, {-inverse_cell, inverse_cell}};
     }
   }
   template <class Shape>
-  THAWSLIDE_HD void set_momentum(const OneGridPosition<Dim>& at, const HalfSize<Real>& size, Real inverse_cell) {
+  THAWSLIDE_HD void set_momentum(const OneGridPosition<Dim>& at, const HalfSize<double>& size, double inverse_cell) {
     momentum.first = static_cast<std::uint32_t>(at.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
       momentum.axis[a] = Shape::weights(at.offset[static_cast<int>(a)], size, at.at_side[a], inverse_cell);
@@ -93,10 +92,10 @@ struct OneWeights {
   }
   // Call after set_momentum.
   template <class Shape>
-  THAWSLIDE_HD void set_affine(const OneGridPosition<Dim>& at, Real cell, Real inverse_cell) {
+  THAWSLIDE_HD void set_affine(const OneGridPosition<Dim>& at, double cell, double inverse_cell) {
     affine = momentum;
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real along = at.offset[static_cast<int>(a)];
+      const double along = at.offset[static_cast<int>(a)];
       affine.axis[a] = Shape::affine(momentum.axis[a], along, at.at_side[a], inverse_cell);
       moment[static_cast<int>(a)] = mpm::second_moment(momentum.axis[a], along) * (cell * cell);
     }
@@ -121,7 +120,7 @@ struct OneWeights {
     }
   }
   // As those of a batch.
-  using Square = Matrix<Real, Dim>;
+  using Square = Matrix<double, Dim>;
   [[nodiscard]] THAWSLIDE_HD Square affine_on_grid(const Square& gradient) const { return mapping.on_grid(gradient); }
   [[nodiscard]] THAWSLIDE_HD Square affine_moment(const Square& gradient) const {
     return affine_on_grid(gradient) * moment.asDiagonal();
@@ -161,7 +160,7 @@ template <int Dim>
 struct OneAtNode {
   bool is_seen = true;
   std::size_t index = 0;
-  Real weight[Dim], slope[Dim];
+  double weight[Dim], slope[Dim];
 };
 // node: index along each axis in the particle's cell.
 template <int Dim, std::size_t Width>
@@ -180,14 +179,14 @@ THAWSLIDE_HD OneAtNode<Dim> at_node(const OneStencil<Dim, Width>& stencil, const
 
 // Component c of a node after adding a particle in reach. sum: value before.
 template <int Dim, std::size_t Components, bool HasFlux>
-THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneContribution<Dim, Components, HasFlux>& carried,
-                               std::size_t c, Real sum) {
+THAWSLIDE_HD double add_particle(const OneAtNode<Dim>& at, const OneContribution<Dim, Components, HasFlux>& carried,
+                                 std::size_t c, double sum) {
   const bool with_flux = HasFlux && c < record_step;
-  Real in_layer = carried.value[c];
-  Real along_0 = 0, along_1 = 0;
+  double in_layer = carried.value[c];
+  double along_0 = 0, along_1 = 0;
   if constexpr (HasFlux) {
-    along_0 = with_flux ? carried.flux[0][c] : Real(0);
-    along_1 = with_flux ? carried.flux[1][c] : Real(0);
+    along_0 = with_flux ? carried.flux[0][c] : 0.0;
+    along_1 = with_flux ? carried.flux[1][c] : 0.0;
   }
   if constexpr (Dim == 3) {
     in_layer *= at.weight[2];
@@ -199,11 +198,11 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneContribution<D
       }
     }
   }
-  Real in_row = at.weight[1] * in_layer;
+  double in_row = at.weight[1] * in_layer;
   if (with_flux) {
     in_row += at.slope[1] * along_1;
   }
-  const Real along = at.weight[1] * along_0;
+  const double along = at.weight[1] * along_0;
   sum += at.weight[0] * in_row;
   if (with_flux) {
     sum += at.slope[0] * along;
@@ -211,16 +210,16 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneContribution<D
   return sum;
 }
 template <int Dim>
-THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneGaps<Dim>& carried, std::size_t /*c*/,
-                               Real smallest) {
-  Real weight = Real(1);
+THAWSLIDE_HD double add_particle(const OneAtNode<Dim>& at, const OneGaps<Dim>& carried, std::size_t /*c*/,
+                                 double smallest) {
+  double weight = 1.0;
   for (std::size_t a = 0; a < Dim; ++a) {
     weight *= at.weight[a];
   }
   if (!(weight > round_off)) {
     return smallest;
   }
-  const Real* record = carried.planes + at.index * record_size(components_of<Planes, Dim>);
+  const double* record = carried.planes + at.index * record_size(components_of<Planes, Dim>);
   return min(smallest,
              max(carried.least, gap_to_plane<Dim>(carried.position, [&](std::size_t k) { return record[k]; })));
 }

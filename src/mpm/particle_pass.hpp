@@ -29,7 +29,7 @@ struct BatchWeights;
 template <int Dim>
 struct BatchWeights<LinearWeights, Dim> {
   LinearStencil<Dim> linear;
-  MappingAt<Dim, Simd<Real>> linear_mapping;
+  MappingAt<Dim, Simd<double>> linear_mapping;
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const LinearWeights& /*weights*/, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
@@ -48,7 +48,7 @@ template <int Dim>
 struct BatchWeights<MomentumWeights<Dim>, Dim> {
   BatchStencil<Dim> momentum;
   LinearStencil<Dim> linear;
-  MappingAt<Dim, Simd<Real>> mapping, linear_mapping;
+  MappingAt<Dim, Simd<double>> mapping, linear_mapping;
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
@@ -101,7 +101,7 @@ struct BatchWeights<AffineWeights<Dim>, Dim> : BatchWeights<MomentumWeights<Dim>
       return Base::template of<Functions>();
     }
   }
-  using Square = Matrix<Simd<Real>, Dim>;
+  using Square = Matrix<Simd<double>, Dim>;
   // Gradients in space to gradients on the grid; and the same times the second moments.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Square affine_on_grid(const Square& gradient) const {
     return this->mapping.on_grid(gradient);

@@ -10,15 +10,15 @@ namespace thawslide::mpm {
 // Members, units and order as in mpm/particles.hpp. Fields that are not stored must not be accessed.
 template <int Dim>
 struct ParticleView {
-  using Scalar = FieldView<Real, 1>;
-  using VectorField = FieldView<Real, Dim>;
-  using TensorField = FieldView<Real, Dim == 2 ? 4 : 6>;
+  using Scalar = FieldView<double, 1>;
+  using VectorField = FieldView<double, Dim>;
+  using TensorField = FieldView<double, Dim == 2 ? 4 : 6>;
 
   FieldView<std::int64_t, 1> id;
   FieldView<std::int32_t, 1> body, material;
   Scalar mass, volume, initial_volume;
   VectorField position, velocity;
-  FieldView<Real, Dim * Dim> affine_velocity;
+  FieldView<double, Dim * Dim> affine_velocity;
   VectorField displacement;
   Scalar path_length;
   TensorField stress, viscous_stress;
@@ -27,12 +27,12 @@ struct ParticleView {
   Scalar seeped_water, flow_depth, thermal_scaling;
   Scalar contact_offset, slip;
   FieldView<std::int32_t, 1> in_band;
-  FieldView<Real, (Dim - 1) * (Dim - 1)> surface_stretch;
+  FieldView<double, (Dim - 1) * (Dim - 1)> surface_stretch;
   FieldView<std::int64_t, 1> parent_id;
   VectorField step_displacement;
   Scalar volume_strain, previous_temperature, secant_capacity, conduction_in_cell, seepage_in_cell, load_change;
   Scalar height_above_ground;
-  FieldView<Real, Dim - 1> ground_slope, linear_slope;
+  FieldView<double, Dim - 1> ground_slope, linear_slope;
 };
 
 // Calls visit(field of a, field of b) for each field, in order. a, b: views, or particles.

@@ -17,9 +17,9 @@ template <int Dim>
 class Particles {
  public:
   static constexpr int tensor_components = Dim == 2 ? 4 : 6;
-  using Scalar = Field<Real, 1>;
-  using VectorField = Field<Real, Dim>;
-  using TensorField = Field<Real, tensor_components>;
+  using Scalar = Field<double, 1>;
+  using VectorField = Field<double, Dim>;
+  using TensorField = Field<double, tensor_components>;
 
   FieldList fields;
 
@@ -34,7 +34,7 @@ class Particles {
   VectorField position{fields, {"position", "m", FieldShape::vector}};  // relative to the domain's lower corner
   VectorField velocity{fields, {"velocity", "m/s", FieldShape::vector, "velocity"}};
   // C of APIC: the velocity around the particle is v + C (x - x_p); by columns
-  Field<Real, Dim * Dim> affine_velocity{fields, {"affine_velocity", "1/s", FieldShape::matrix}};
+  Field<double, Dim * Dim> affine_velocity{fields, {"affine_velocity", "1/s", FieldShape::matrix}};
   VectorField displacement{fields, {"displacement", "m", FieldShape::vector, "displacement since t = 0"}};
   Scalar path_length{fields, {"path_length", "m", FieldShape::scalar, "length of the path travelled"}};
   TensorField stress{
@@ -62,7 +62,7 @@ class Particles {
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, "slip along the ground, accumulated"}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, "1 in the band, otherwise 0"}};
   // Deformation F in the horizontal plane, at constant height above the ground; by columns (mpm/splitting.hpp)
-  Field<Real, (Dim - 1) * (Dim - 1)> surface_stretch{fields, {"surface_stretch", "1", FieldShape::matrix}};
+  Field<double, (Dim - 1) * (Dim - 1)> surface_stretch{fields, {"surface_stretch", "1", FieldShape::matrix}};
   Field<std::int64_t, 1> parent_id{
       fields, {"parent_id", "1", FieldShape::scalar,
                "with `split_stretched`: number of the particle from which it was split, otherwise its own number", true,
@@ -78,9 +78,9 @@ class Particles {
   Scalar load_change{fields, {"load_change", "Pa", FieldShape::scalar, nullptr, false}};
   // With ground (mpm/mapping.hpp): vertical height above it, and its slope below
   Scalar height_above_ground{fields, {"height_above_ground", "m", FieldShape::scalar, nullptr, false}};
-  Field<Real, Dim - 1> ground_slope{fields, {"ground_slope", "1", FieldShape::vector, nullptr, false}};
+  Field<double, Dim - 1> ground_slope{fields, {"ground_slope", "1", FieldShape::vector, nullptr, false}};
   // The same by linear shape functions
-  Field<Real, Dim - 1> linear_slope{fields, {"linear_slope", "1", FieldShape::vector, nullptr, false}};
+  Field<double, Dim - 1> linear_slope{fields, {"linear_slope", "1", FieldShape::vector, nullptr, false}};
   // clang-format on
 
   Particles() = default;
@@ -148,8 +148,8 @@ class Particles {
 
 // Particle tensor as a full six-component tensor; plane strain has zz but no yz, xz.
 template <int Dim>
-SymmetricTensor<Real> full_tensor(const typename Particles<Dim>::TensorField& field, std::size_t particle) {
-  SymmetricTensor<Real> s = SymmetricTensor<Real>::Zero();
+SymmetricTensor<double> full_tensor(const typename Particles<Dim>::TensorField& field, std::size_t particle) {
+  SymmetricTensor<double> s = SymmetricTensor<double>::Zero();
   for (int c = 0; c < Particles<Dim>::tensor_components; ++c) {
     s[c] = field(particle, c);
   }

@@ -19,7 +19,7 @@ struct UpdatePosition {
   using Adds = RecordList<>;
   using Totals = InvalidParticle;
 
-  Vector<Real, Dim> lower, upper;  // [m]
+  Vector<double, Dim> lower, upper;  // [m]
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
@@ -31,14 +31,14 @@ struct UpdatePosition {
     const VectorOfValues old = particles.position.template load_vector<Dim>(at);
     // NaN fails all comparisons.
     const Value state = particles.temperature.load(at) + particles.pore_pressure.load(at) + particles.stress.load(at);
-    auto well = abs(state) <= Value(std::numeric_limits<Real>::max());
+    auto well = abs(state) <= Value(std::numeric_limits<double>::max());
     for (int a = 0; a < Dim; ++a) {
       well = well & (old[a] + step[a] >= lower[a]) & (old[a] + step[a] <= upper[a]);
     }
     if (any(!well)) {
       for_each_lane(!well, [&](std::size_t lane) { record_fault(particles, at.particle[lane], invalid); });
       for (int a = 0; a < Dim; ++a) {
-        step[a] = select(well, step[a], Value(Real(0)));
+        step[a] = select(well, step[a], Value(0.0));
       }
     }
     particles.position.store_vector(at, VectorOfValues(old + step));

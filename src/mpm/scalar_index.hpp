@@ -9,11 +9,11 @@
 namespace thawslide::mpm {
 
 struct ScalarIndex {
-  using Value = Real;
+  using Value = double;
 
   std::array<std::uint32_t, 1> particle;
 
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, Real quantity) const { sum += quantity; }
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_to(double& sum, double quantity) const { sum += quantity; }
   template <class Of>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value each(const Of& of) const {
     return of(particle[0]);

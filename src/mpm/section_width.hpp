@@ -23,34 +23,34 @@ class SectionWidth {
   // origin of positions [m].
   SectionWidth(const Table& table, double origin) {
     for (std::size_t k = 0; k < table.abscissa.size(); ++k) {
-      index_.push_back(static_cast<Real>(table.abscissa[k] - origin));
-      relative_.push_back(static_cast<Real>(table.value[k] / table.value.front()));
+      index_.push_back(table.abscissa[k] - origin);
+      relative_.push_back(table.value[k] / table.value.front());
     }
   }
 
   [[nodiscard]] bool varies() const { return !index_.empty(); }
 
   // Relative width: b over the reference width.
-  [[nodiscard]] Real at(Real x) const {
+  [[nodiscard]] double at(double x) const {
     const std::size_t k = after(x);
-    return k == 0 ? Real(1) : k == index_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - index_[k - 1]);
+    return k == 0 ? 1.0 : k == index_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - index_[k - 1]);
   }
   // b'/b [1/m].
-  [[nodiscard]] Real widening(Real x) const {
+  [[nodiscard]] double widening(double x) const {
     const std::size_t k = after(x);
-    return k == 0 || k == index_.size() ? Real(0) : slope(k) / at(x);
+    return k == 0 || k == index_.size() ? 0.0 : slope(k) / at(x);
   }
 
  private:
   // Index of the first place beyond x.
-  [[nodiscard]] std::size_t after(Real x) const {
+  [[nodiscard]] std::size_t after(double x) const {
     return static_cast<std::size_t>(std::upper_bound(index_.begin(), index_.end(), x) - index_.begin());
   }
-  [[nodiscard]] Real slope(std::size_t k) const {
+  [[nodiscard]] double slope(std::size_t k) const {
     return (relative_[k] - relative_[k - 1]) / (index_[k] - index_[k - 1]);
   }
 
-  std::vector<Real> index_, relative_;
+  std::vector<double> index_, relative_;
 };
 
 // Width for kernels; EvenWidth if uniform (mpm/kernel.hpp).
@@ -60,11 +60,11 @@ struct UnevenWidth {
 
   template <class Value>
   [[nodiscard]] Value at(const Value& x) const {
-    return map_lanes(x, [&](Real one) { return width.at(one); });
+    return map_lanes(x, [&](double one) { return width.at(one); });
   }
   template <class Value>
   [[nodiscard]] Value widening(const Value& x) const {
-    return map_lanes(x, [&](Real one) { return width.widening(one); });
+    return map_lanes(x, [&](double one) { return width.widening(one); });
   }
 };
 

@@ -24,12 +24,12 @@ struct AxisWeights {
 
 // Linear shape functions. offset: particle minus nearest node, in cells, within [-1/2, 1/2].
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value offset, Real inverse_cell) {
-  const auto right = offset >= Real(0);
-  const Value zero = Real(0), slope = inverse_cell;
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value offset, double inverse_cell) {
+  const auto right = offset >= 0.0;
+  const Value zero = 0.0, slope = inverse_cell;
   const Value left_part = select(right, zero, -offset);
   const Value right_part = select(right, offset, zero);
-  return {{left_part, Real(1) - left_part - right_part, right_part},
+  return {{left_part, 1.0 - left_part - right_part, right_part},
           {select(right, zero, -slope), select(right, -slope, slope), select(right, slope, zero)}};
 }
 
@@ -47,29 +47,29 @@ struct HalfSize {
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset,
                                                                       const std::type_identity_t<HalfSize<Value>>& size,
-                                                                      Real inverse_cell) {
+                                                                      double inverse_cell) {
   const Value half = size.half;
   const auto in_right_cell = offset >= half;
   const auto in_left_cell = offset <= -half;
-  const Value zero = Real(0), slope = inverse_cell;
+  const Value zero = 0.0, slope = inverse_cell;
   const Value to_left = half - offset, to_right = half + offset;
-  const Value quarter = static_cast<Real>(0.25) * size.inverse;
-  const Value half_slope = Real(2) * inverse_cell * quarter;
+  const Value quarter = 0.25 * size.inverse;
+  const Value half_slope = 2.0 * inverse_cell * quarter;
   const Value left = select(in_right_cell, zero, select(in_left_cell, -offset, to_left * to_left * quarter));
   const Value right = select(in_left_cell, zero, select(in_right_cell, offset, to_right * to_right * quarter));
   const Value slope_left = select(in_right_cell, zero, select(in_left_cell, -slope, -to_left * half_slope));
   const Value slope_right = select(in_left_cell, zero, select(in_right_cell, slope, to_right * half_slope));
-  return {{left, Real(1) - left - right, right}, {slope_left, -slope_left - slope_right, slope_right}};
+  return {{left, 1.0 - left - right, right}, {slope_left, -slope_left - slope_right, slope_right}};
 }
 
 // Quadratic B-spline (Steffen, Kirby and Berzins 2008). offset as above.
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> quadratic_weights(Value offset, Real inverse_cell) {
-  const Real half = static_cast<Real>(0.5);
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> quadratic_weights(Value offset, double inverse_cell) {
+  const double half = 0.5;
   const Value left = half - offset;
   const Value right = half + offset;
-  return {{half * left * left, static_cast<Real>(0.75) - offset * offset, half * right * right},
-          {-left * inverse_cell, -Real(2) * offset * inverse_cell, right * inverse_cell}};
+  return {{half * left * left, 0.75 - offset * offset, half * right * right},
+          {-left * inverse_cell, -2.0 * offset * inverse_cell, right * inverse_cell}};
 }
 
 // Second moment of the weights around the particle, in cells^2: sum w_k (x_k - x_p)^2.
@@ -82,11 +82,11 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value second_moment(const AxisWeights<Value
 // the second moment D.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const AxisWeights<Value>& axis, Value offset,
-                                                                         Real inverse_cell) {
+                                                                         double inverse_cell) {
   AxisWeights<Value> affine = axis;
   const Value factor = inverse_cell / second_moment(axis, offset);
   for (std::size_t k = 0; k < 3; ++k) {
-    affine.slope[k] = axis.weight[k] * (static_cast<Real>(k) - Real(1) - offset) * factor;
+    affine.slope[k] = axis.weight[k] * (static_cast<double>(k) - 1.0 - offset) * factor;
   }
   return affine;
 }
@@ -109,13 +109,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Cond
 struct Ugimp {
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
-      Value offset, const std::type_identity_t<HalfSize<Value>>& size, Condition /*at_side*/, Real inverse_cell) {
+      Value offset, const std::type_identity_t<HalfSize<Value>>& size, Condition /*at_side*/, double inverse_cell) {
     return ugimp_weights(offset, size, inverse_cell);
   }
   // D is at least half the particle's half size.
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> affine(const AxisWeights<Value>& axis, Value offset,
-                                                                        Condition /*at_side*/, Real inverse_cell) {
+                                                                        Condition /*at_side*/, double inverse_cell) {
     return by_second_moment(axis, offset, inverse_cell);
   }
 };
@@ -125,13 +125,13 @@ struct Ugimp {
 struct Quadratic {
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
-      Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition at_side, Real inverse_cell) {
+      Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition at_side, double inverse_cell) {
     return select(at_side, linear_weights(offset, inverse_cell), quadratic_weights(offset, inverse_cell));
   }
   // D is 1/4; with linear shape functions, w_k (x_k - x_p)/D equals the slope.
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> affine(const AxisWeights<Value>& axis, Value offset,
-                                                                        Condition at_side, Real inverse_cell) {
+                                                                        Condition at_side, double inverse_cell) {
     return select(at_side, axis, by_second_moment(axis, offset, inverse_cell));
   }
 };

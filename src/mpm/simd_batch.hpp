@@ -13,16 +13,16 @@
 namespace thawslide::mpm {
 
 struct SimdBatch {
-  using Value = Simd<Real>;
-  static constexpr std::size_t most = simd_width<Real>;
+  using Value = Simd<double>;
+  static constexpr std::size_t most = simd_width<double>;
 
   std::array<std::uint32_t, most> particle;  // by lane; lanes from `count` on repeat the last one
   std::size_t count;
   bool contiguous;  // the particles are `most` consecutive ones in memory, starting at a multiple of `most`
 
   // Adds a quantity in the order of lanes.
-  THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, const Simd<Real>& quantity) const {
-    alignas(sizeof(Simd<Real>)) Real numbers[most];
+  THAWSLIDE_ALWAYS_INLINE void add_to(double& sum, const Simd<double>& quantity) const {
+    alignas(sizeof(Simd<double>)) double numbers[most];
     quantity.store(numbers);
     for (std::size_t lane = 0; lane < count; ++lane) {
       sum += numbers[lane];
@@ -57,17 +57,17 @@ THAWSLIDE_ALWAYS_INLINE SimdBatch batch_in_memory(std::size_t first, std::size_t
 struct BatchNodes {
   static constexpr std::uint8_t irregular = 3;
 
-  std::array<std::int32_t, simd_width<Real>> first;  // by lane
-  std::uint8_t runs;                                 // runs of lanes with the same nodes: 1, 2 or `irregular`
-  std::uint8_t second_run_begin;                     // first lane of the second of two runs
+  std::array<std::int32_t, simd_width<double>> first;  // by lane
+  std::uint8_t runs;                                   // runs of lanes with the same nodes: 1, 2 or `irregular`
+  std::uint8_t second_run_begin;                       // first lane of the second of two runs
   bool continues;  // the next batch begins with a particle of the same nodes as the last one of this batch
 };
 
 // Batch of one tile and one material. It remains valid until the nearest node of a particle of the tile changes.
 template <int Dim>
 struct TileBatch : SimdBatch {
-  std::array<std::array<std::int32_t, simd_width<Real>>, Dim> nearest;  // index of the nearest node, by axis
-  BatchNodes nodes;                                                     // 3 per axis, from the one before the nearest
+  std::array<std::array<std::int32_t, simd_width<double>>, Dim> nearest;  // index of the nearest node, by axis
+  BatchNodes nodes;                                                       // 3 per axis, from the one before the nearest
 };
 
 }  // namespace thawslide::mpm

@@ -20,19 +20,19 @@ constexpr std::size_t none = ~std::size_t{0};
 
 // Places of nodes in the patch of a tile, from their indices along the axes.
 template <int Dim>
-BatchNodes nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
+BatchNodes nodes_from(std::uint64_t tile_key, const Vector<Simd<double>, Dim>& lowest) {
   using T = Tile<Dim>;
   const typename T::Index tile = T::index(tile_key);
-  Simd<Real> index = Real(0);
+  Simd<double> index = 0.0;
   for (int a = Dim - 1; a >= 0; --a) {
-    const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
-    index = index * Real(T::patch_edge) + (lowest[a] - before);
+    const auto before = static_cast<double>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
+    index = index * double(T::patch_edge) + (lowest[a] - before);
   }
   BatchNodes nodes;
   index.store_whole(nodes.first.data());
   nodes.runs = 1;
   nodes.second_run_begin = 0;
-  for (std::uint8_t lane = 1; lane < simd_width<Real>; ++lane) {
+  for (std::uint8_t lane = 1; lane < simd_width<double>; ++lane) {
     if (nodes.first[lane] != nodes.first[lane - 1u]) {
       nodes.second_run_begin = nodes.runs == 1 ? lane : nodes.second_run_begin;
       nodes.runs = nodes.runs == 1 ? 2 : BatchNodes::irregular;
@@ -115,7 +115,7 @@ bool SparseGrid<Dim>::compute_keys(const Particles<Dim>& particles) {
       const auto batch = batch_in_memory(first, last);
       std::int32_t nearest[Dim * most];
       for (int a = 0; a < Dim; ++a) {
-        floor(mapping_.template coordinate<Dim>(particles, batch, a) * inverse_cell_ + Real(0.5))
+        floor(mapping_.template coordinate<Dim>(particles, batch, a) * inverse_cell_ + 0.5)
             .store_whole(nearest + static_cast<std::size_t>(a) * most);
       }
       std::fill_n(&moved_[first], most, std::uint8_t{0});
@@ -309,7 +309,7 @@ void SparseGrid<Dim>::make_batches(const Particles<Dim>& particles, std::size_t 
     for (std::size_t lane = batch.count; lane < most; ++lane) {
       batch.particle[lane] = batch.particle[batch.count - 1];
     }
-    Vector<Simd<Real>, Dim> before_nearest;
+    Vector<Simd<double>, Dim> before_nearest;
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
       if (batch.contiguous) {
@@ -318,7 +318,7 @@ void SparseGrid<Dim>::make_batches(const Particles<Dim>& particles, std::size_t 
       for (std::size_t lane = 0; !batch.contiguous && lane < most; ++lane) {
         nearest[lane] = nearest_[in_nearest(batch.particle[lane], static_cast<std::size_t>(a))];
       }
-      before_nearest[a] = Simd<Real>::load_whole(nearest.data()) - Real(1);
+      before_nearest[a] = Simd<double>::load_whole(nearest.data()) - 1.0;
     }
     batch.nodes = nodes_from<Dim>(tile.key, before_nearest);
     batch.nodes.continues = false;

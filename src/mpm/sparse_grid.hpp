@@ -27,11 +27,11 @@ class SparseGrid {
   };
 
   // cell: mesh size [m]. layer_of_body: bodies of different layers share no nodes; empty: all share them.
-  explicit SparseGrid(Real cell, std::vector<std::uint8_t> layer_of_body = {}, const Mapping& mapping = {})
-      : cell_(cell), inverse_cell_(Real(1) / cell), mapping_(mapping), layer_of_body_(std::move(layer_of_body)) {}
+  explicit SparseGrid(double cell, std::vector<std::uint8_t> layer_of_body = {}, const Mapping& mapping = {})
+      : cell_(cell), inverse_cell_(1.0 / cell), mapping_(mapping), layer_of_body_(std::move(layer_of_body)) {}
 
-  [[nodiscard]] Real cell() const { return cell_; }
-  [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
+  [[nodiscard]] double cell() const { return cell_; }
+  [[nodiscard]] double inverse_cell() const { return inverse_cell_; }
   [[nodiscard]] const Mapping& mapping() const { return mapping_; }
 
   // Updates order, tiles, batches and blocks to the particle positions. Appended particles are added; removed ones must
@@ -127,7 +127,7 @@ class SparseGrid {
     return (particle / most * Dim + axis) * most + particle % most;
   }
 
-  Real cell_, inverse_cell_;
+  double cell_, inverse_cell_;
   Mapping mapping_;
   std::vector<std::uint8_t> layer_of_body_;
   std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile

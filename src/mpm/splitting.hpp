@@ -17,14 +17,14 @@ namespace thawslide::mpm {
 
 // Length beyond which a particle is split, in cells. With 1 in place of 1.5 there are twice as many particles and no
 // smaller gaps, and deposits grow by 1 to 2 % (docs/theory/momentum.md).
-inline constexpr Real longest_in_cells = Real(1.5);
+inline constexpr double longest_in_cells = 1.5;
 
 // Volume, over the initial one, above which a particle is not split: tension has torn it, and its halves would keep on
 // opening. Their low density would shorten the steps.
-inline constexpr Real torn_volume = Real(1.5);
+inline constexpr double torn_volume = 1.5;
 
 template <int Dim>
-using SurfaceStretch = Matrix<Real, Dim - 1>;
+using SurfaceStretch = Matrix<double, Dim - 1>;
 
 // Updates F. gradient: of the displacement of the step in space, dt G.
 template <int Dim, class Particles, class At, class Value>
@@ -71,19 +71,19 @@ void set_surface_stretch(Particles& particles, std::size_t particle, const Surfa
 // Larger principal stretch, and the unit vector along it.
 template <int Dim>
 struct LongestAxis {
-  Real stretch;
-  Vector<Real, Dim - 1> direction;
+  double stretch;
+  Vector<double, Dim - 1> direction;
 };
 template <int Dim>
 LongestAxis<Dim> longest_axis(const SurfaceStretch<Dim>& stretch) {
   LongestAxis<Dim> axis;
   if constexpr (Dim == 2) {
     axis.stretch = std::abs(stretch(0, 0));
-    axis.direction[0] = Real(1);
+    axis.direction[0] = 1.0;
   } else {
-    const Real xx = stretch.row(0).squaredNorm(), yy = stretch.row(1).squaredNorm();
-    const physics::detail::PlaneAxis<Real> plane(xx, yy, stretch.row(0).dot(stretch.row(1)));
-    axis.stretch = std::sqrt(Real(0.5) * (xx + yy) + plane.radius);
+    const double xx = stretch.row(0).squaredNorm(), yy = stretch.row(1).squaredNorm();
+    const physics::detail::PlaneAxis<double> plane(xx, yy, stretch.row(0).dot(stretch.row(1)));
+    axis.stretch = std::sqrt(0.5 * (xx + yy) + plane.radius);
     axis.direction = {plane.cosine, plane.sine};
   }
   return axis;
@@ -91,11 +91,11 @@ LongestAxis<Dim> longest_axis(const SurfaceStretch<Dim>& stretch) {
 
 // F after halving along a unit vector.
 template <int Dim>
-SurfaceStretch<Dim> halved(const SurfaceStretch<Dim>& stretch, const Vector<Real, Dim - 1>& direction) {
-  return stretch - Real(0.5) * direction * (direction.transpose() * stretch);
+SurfaceStretch<Dim> halved(const SurfaceStretch<Dim>& stretch, const Vector<double, Dim - 1>& direction) {
+  return stretch - 0.5 * direction * (direction.transpose() * stretch);
 }
 
 // half_size: l_p in cells.
-inline bool is_too_long(Real stretch, Real half_size) { return stretch * (Real(2) * half_size) > longest_in_cells; }
+inline bool is_too_long(double stretch, double half_size) { return stretch * (2.0 * half_size) > longest_in_cells; }
 
 }  // namespace thawslide::mpm

@@ -8,7 +8,7 @@ namespace thawslide::mpm {
 
 template <int Dim>
 Deformed update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
-                                    const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes) {
+                                    const MotionModel<Dim>& model, double dt, Nodes<Dim>& nodes) {
   const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
   return with_width<Dim>(model.width, [&](const auto& width) {
     const UpdateStress<Dim, std::decay_t<decltype(width)>> update{model.materials.data(), model.phases,
@@ -19,7 +19,7 @@ Deformed update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>&
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
   template Deformed update_stress_and_porosity<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, \
-                                                    Real, Nodes<Dim>&);
+                                                    double, Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -35,9 +35,9 @@ struct Deform {
   const physics::Elastic& elastic;
   const physics::Phases& phases;
   bool gaps_close_first;  // physics/tension_gap.hpp
-  Real viscosity_time;    // Kelvin-Voigt [s]
+  double viscosity_time;  // Kelvin-Voigt [s]
   bool effective_stress;  // pore pressure also acts inside the body
-  Real dt;
+  double dt;
   Width width{};
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -57,20 +57,20 @@ struct Deform {
     const Tensor old_stress = particles.stress.template load_vector<6>(at);
     const Value volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
     const Value closing =
-        gaps_close_first ? physics::closing_strain(particles.gap.load(at), volume_strain) : Value(Real(0));
+        gaps_close_first ? physics::closing_strain(particles.gap.load(at), volume_strain) : Value(0.0);
     const Tensor change = physics::stress_increment(elastic, physics::borne_strain(increment.strain, closing));
     Tensor stress = physics::rotate<Value, Dim>(old_stress, increment.rotation) + change;
     Value plastic_work_density, opening;
     admit(particles, at, stress, plastic_work_density, opening);
     StressWork& work = totals.work;
     const Value volume = particles.volume.load(at);
-    at.add_to(work.total, volume * Real(0.5) * double_contraction<Value>(old_stress + stress, increment.strain));
+    at.add_to(work.total, volume * 0.5 * double_contraction<Value>(old_stress + stress, increment.strain));
     particles.stress.store_vector(at, stress);
     if (Law::yields) {
-      const Value pressure = (stress[0] + stress[1] + stress[2]) * (Real(1) / Real(3));
+      const Value pressure = (stress[0] + stress[1] + stress[2]) * (1.0 / 3.0);
       at.add_to(work.plastic, volume * (plastic_work_density - closing * pressure));
     }
-    if (viscosity_time > Real(0)) {
+    if (viscosity_time > 0.0) {
       const Tensor viscous = Value(viscosity_time / dt) * change;
       at.add_to(work.viscous, volume * double_contraction<Value>(viscous, increment.strain));
       particles.viscous_stress.store_vector(at, viscous);
@@ -85,8 +85,8 @@ struct Deform {
     if (particles.volume_strain.is_kept()) {
       particles.volume_strain.store(at, volume_strain);
     }
-    particles.porosity.store(
-        at, physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
+    particles.porosity.store(at,
+                             physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(0.0)));
     record_inverted(particles, at, totals.invalid);
   }
 
@@ -98,7 +98,7 @@ struct Deform {
                                               Increment& increment) const {
     const Value x = particles.position.load(at, 0);
     const Value displacement = Value(dt) * velocity;
-    increment.strain[2] = displacement * width.widening(Value(x + Value(Real(0.5)) * displacement));
+    increment.strain[2] = displacement * width.widening(Value(x + Value(0.5) * displacement));
     increment.volume_ratio =
         increment.volume_ratio * width.at(Value(x + particles.step_displacement.load(at, 0))) / width.at(x);
   }
@@ -107,7 +107,7 @@ struct Deform {
   template <class Particles, class At, class Tensor, class Value>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void admit(Particles& particles, const At& at, Tensor& stress,
                                                   Value& plastic_work_density, Value& opening) const {
-    plastic_work_density = opening = Real(0);
+    plastic_work_density = opening = 0.0;
     if constexpr (Law::yields) {
       const Value plastic_strain = particles.plastic_strain.load(at);
       if (any(law.template may_yield<Dim>(stress, plastic_strain))) {
@@ -123,11 +123,11 @@ struct Deform {
   template <class Particles, class At>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static void record_inverted(const Particles& particles, const At& at,
                                                                    InvalidParticle& invalid) {
-    if (!any(!(particles.volume.load(at) > Real(0)))) {
+    if (!any(!(particles.volume.load(at) > 0.0))) {
       return;
     }
     at.for_each([&](std::uint32_t p) {
-      if (!(particles.volume(p) > Real(0))) {
+      if (!(particles.volume(p) > 0.0)) {
         invalid.record(particles.id(p),
                        std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
       }
@@ -145,7 +145,7 @@ struct UpdateStress {
   const MaterialModel* materials;
   const physics::Phases& phases;
   bool effective_stress;
-  Real dt;
+  double dt;
   Width width{};
 
   template <class Particles, class At, class Seen, class Scatter>

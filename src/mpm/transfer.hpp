@@ -26,15 +26,16 @@ namespace thawslide::mpm {
 
 // Widest register that divides a record.
 template <int Components>
-using RecordRegister = Simd<Real, record_size(Components) % simd_width<Real> == 0 ? simd_width<Real> : record_step>;
+using RecordRegister =
+    Simd<double, record_size(Components) % simd_width<double> == 0 ? simd_width<double> : record_step>;
 
 // Records around one tile, with a margin of one node.
 template <int Dim, int Components>
 struct Patch {
-  using Record = std::array<Real, record_size(Components)>;
+  using Record = std::array<double, record_size(Components)>;
   alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
 
-  void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), Real(0)); }
+  void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), 0.0); }
   // Calls visit(record) with the first record of each row. rows: one bit per row (Tile::rows_from).
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_rows(std::uint64_t rows, const Visit& visit) {
@@ -44,7 +45,7 @@ struct Patch {
   }
   // Clears only these rows.
   void clear(std::uint64_t rows) {
-    for_rows(rows, [](Record* row) { std::fill_n(row->data(), Tile<Dim>::patch_edge * row->size(), Real(0)); });
+    for_rows(rows, [](Record* row) { std::fill_n(row->data(), Tile<Dim>::patch_edge * row->size(), 0.0); });
   }
   // Returns those of these rows in which is(record) is true for at least one record.
   template <class Is>
@@ -82,7 +83,7 @@ struct NodeAt {
 template <int Dim, int Components>
 class NodeRecords {
  public:
-  using Record = std::array<Real, record_size(Components)>;
+  using Record = std::array<double, record_size(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   // Without memory for patches: for records that nodes compute, or sum from the patches of others.
@@ -114,7 +115,7 @@ class NodeRecords {
 template <int Dim, int Components>
 class SparseRecords {
  public:
-  using Record = std::array<Real, record_size(Components)>;
+  using Record = std::array<double, record_size(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   SparseRecords() = default;
@@ -192,8 +193,8 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim>& grid, std::size_t bloc
     for_seen_rows<Dim, opposite<Dim>(d)>(
         rows, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) THAWSLIDE_INLINE_LAMBDA {
           const std::uint32_t row = std::uint32_t{1} << in_block / edge;
-          Real* sums = records[in_block].data();
-          const Real* parts = patches[tile].records[in_patch].data();
+          double* sums = records[in_block].data();
+          const double* parts = patches[tile].records[in_patch].data();
           if ((begun & row) == 0) {
             begun |= row;
             if (count == edge) {
@@ -202,7 +203,7 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim>& grid, std::size_t bloc
               }
               return;
             }
-            std::fill_n(records[in_block / edge * edge].data(), edge * size, Real(0));
+            std::fill_n(records[in_block / edge * edge].data(), edge * size, 0.0);
           }
           for (std::size_t c = 0; c < count * size; c += Register::count) {
             (Register::load(sums + c) + Register::load(parts + c)).store(sums + c);
@@ -216,13 +217,13 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim>& grid, std::size_t bloc
     }
   });
   for (std::uint32_t rows = seen & ~begun; rows != 0; rows &= rows - 1) {
-    std::fill_n(records[static_cast<std::size_t>(std::countr_zero(rows)) * edge].data(), edge * size, Real(0));
+    std::fill_n(records[static_cast<std::size_t>(std::countr_zero(rows)) * edge].data(), edge * size, 0.0);
   }
   seen |= begun;
 #ifndef NDEBUG
   for (std::uint32_t rows = Tile<Dim>::all_rows & ~seen; rows != 0; rows &= rows - 1) {
     std::fill_n(records[static_cast<std::size_t>(std::countr_zero(rows)) * edge].data(), edge * size,
-                std::numeric_limits<Real>::quiet_NaN());  // never read
+                std::numeric_limits<double>::quiet_NaN());  // never read
   }
 #endif
   return seen;
@@ -239,7 +240,7 @@ void sum_patches(const SparseGrid<Dim>& grid, NodeRecords<Dim, Components>& node
     const std::uint32_t seen = sum_patches_in_block(grid, block, patches, records, every_tile);
     for (std::uint32_t rows = Tile<Dim>::all_rows & ~seen; rows != 0; rows &= rows - 1) {
       const std::size_t row = static_cast<std::size_t>(std::countr_zero(rows)) * edge;
-      std::fill_n(records[row].data(), edge * records->size(), Real(0));
+      std::fill_n(records[row].data(), edge * records->size(), 0.0);
     }
     then(block);
   });
@@ -255,7 +256,7 @@ template <std::size_t Component, int Dim, int Components, class TileFilter>
 void reduce_min_in_block(const SparseGrid<Dim>& grid, std::size_t block, std::span<Patch<Dim, Components>> patches,
                          typename Patch<Dim, Components>::Record* records, const TileFilter& accepts) {
   for (std::size_t k = 0; k < NodeRecords<Dim, Components>::nodes; ++k) {
-    records[k][Component] = std::numeric_limits<Real>::max();
+    records[k][Component] = std::numeric_limits<double>::max();
   }
   const std::int32_t* tiles = grid.tiles_about_block(block);
   for_each_direction<Dim>([&](auto d) {
@@ -263,7 +264,7 @@ void reduce_min_in_block(const SparseGrid<Dim>& grid, std::size_t block, std::sp
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
       for_shared_nodes<Dim, opposite<Dim>(d)>(
           [&](std::size_t in_block, std::size_t in_patch) {
-            Real& known = records[in_block][Component];
+            double& known = records[in_block][Component];
             known = std::min(known, patch.records[in_patch][Component]);
           },
           grid.rows_seen(static_cast<std::size_t>(tiles[d])));
@@ -282,8 +283,8 @@ void load_patch(const SparseGrid<Dim>& grid, std::size_t t, const Records<Dim, C
   for_each_direction<Dim>([&](auto d) {
     const auto block = static_cast<std::size_t>(blocks[d]);
     for_seen_rows<Dim, d>(rows, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-      const Real* from = nodes(block, in_block).data();
-      Real* to = patch.records[in_patch].data();
+      const double* from = nodes(block, in_block).data();
+      double* to = patch.records[in_patch].data();
       for (std::size_t c = 0; c < count * size; c += Register::count) {
         Register::load(from + c).store(to + c);
       }

@@ -10,12 +10,12 @@
 namespace thawslide::mpm {
 
 template <int Dim>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Real* record, std::size_t first) {
-  return Eigen::Map<const Vector<Real, Dim>>(record + first);
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<double, Dim> vector_at(const double* record, std::size_t first) {
+  return Eigen::Map<const Vector<double, Dim>>(record + first);
 }
 template <int Dim, class Record>
 requires requires(const Record& record) { record.data(); }
-THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Record& record, std::size_t first) {
+THAWSLIDE_ALWAYS_INLINE Vector<double, Dim> vector_at(const Record& record, std::size_t first) {
   return vector_at<Dim>(record.data(), first);
 }
 

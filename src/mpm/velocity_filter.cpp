@@ -13,7 +13,7 @@ namespace {
 // fit.
 template <int Dim>
 void make_increments(const SparseGrid<Dim>& grid, bool first, Nodes<Dim>& nodes) {
-  const Real least = least_square_of(grid.cell());
+  const double least = least_square_of(grid.cell());
   sum_patches(grid, nodes.filter_momentum, [&](std::size_t b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<Dim>::nodes); ++k) {
       make_increment<Dim>(first, least, nodes.momentum(b, k), nodes.filter_moments(b, k), nodes.filter_momentum(b, k),
@@ -25,8 +25,8 @@ void make_increments(const SparseGrid<Dim>& grid, bool first, Nodes<Dim>& nodes)
 }  // namespace
 
 template <int Dim>
-Real filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
-                       Nodes<Dim>& nodes) {
+double filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                         Nodes<Dim>& nodes) {
   nodes.filter_increment.resize(grid.blocks().size());
   nodes.filter_total.resize(grid.blocks().size());
   const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
@@ -45,7 +45,7 @@ Real filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, c
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) \
-  template Real filter_velocities<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Nodes<Dim>&);
+  template double filter_velocities<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -18,7 +18,7 @@ namespace thawslide::mpm {
 // momenta of the filtered velocities. Requires nodal masses (momentum_to_grid). Returns the kinetic energy gained by
 // particles [J], at most 0.
 template <int Dim>
-Real filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
-                       Nodes<Dim>& nodes);
+double filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                         Nodes<Dim>& nodes);
 
 }  // namespace thawslide::mpm

@@ -37,55 +37,54 @@ struct ColumnModel {
   Phases phases;
   Curve curve;
   WaterExpansion water_expansion;
-  Real porosity = 0;                  // n
-  Real hydraulic_conductivity = 0;    // k_L [m/s]
-  Real skeleton_compressibility = 0;  // m_v [1/Pa]
-  Real residual_stress = 0;           // s0 [Pa]; at N or above: no excess pressure on thawing
+  double porosity = 0;                  // n
+  double hydraulic_conductivity = 0;    // k_L [m/s]
+  double skeleton_compressibility = 0;  // m_v [1/Pa]
+  double residual_stress = 0;           // s0 [Pa]; at N or above: no excess pressure on thawing
   EndOfWater at_frozen = EndOfWater::sealed, at_top = EndOfWater::vented;
-  Real water_to_steam_viscosity = 0;  // ratio; 0: no seepage of steam
+  double water_to_steam_viscosity = 0;  // ratio; 0: no seepage of steam
   bool latent = true, conduction = true, seepage = true, pressurization = true, steam = true;
-  Real ground_conductivity = 0;  // [W/m/K]
-  Real ground_capacity = 0;      // [J/m3/K]
-  Real ground_cell = 0;          // height of the ground's uppermost cell [m]
-  Real growth =
-      static_cast<Real>(1.4);  // height of a cell over that of its neighbour nearer to the band; above: at most
+  double ground_conductivity = 0;  // [W/m/K]
+  double ground_capacity = 0;      // [J/m3/K]
+  double ground_cell = 0;          // height of the ground's uppermost cell [m]
+  double growth = 1.4;             // height of a cell over that of its neighbour nearer to the band; above: at most
 };
 
 struct BandColumn {
-  Real thickness;                      // of the band, e [m]
-  Real cell_growth;                    // r: height ratio of a cell above the band to the one below it
-  Real heat[ColumnCells::all];         // H [J/m2]
-  Real temperature[ColumnCells::all];  // [C], from H
-  Real water[ColumnCells::slide];      // w [kg/m2]
-  Real thawing[ColumnCells::slide];    // S_s P_thaw - m_v N_thaw; for frozen cells, the value on thawing now
-  Real surplus[ColumnCells::slide];    // theta
-  Real pressure[ColumnCells::slide];   // P [Pa]
+  double thickness;                      // of the band, e [m]
+  double cell_growth;                    // r: height ratio of a cell above the band to the one below it
+  double heat[ColumnCells::all];         // H [J/m2]
+  double temperature[ColumnCells::all];  // [C], from H
+  double water[ColumnCells::slide];      // w [kg/m2]
+  double thawing[ColumnCells::slide];    // S_s P_thaw - m_v N_thaw; for frozen cells, the value on thawing now
+  double surplus[ColumnCells::slide];    // theta
+  double pressure[ColumnCells::slide];   // P [Pa]
 };
 
 // Input of a column's time step.
 struct ColumnDrive {
-  Real dt;               // [s]
-  Real normal_pressure;  // N [Pa], at least 0
-  Real heat_flux;        // eta tau v [W/m2]
-  Real stretching;       // dA/dt / A [1/s]
-  Real thickness;        // of the band at the end of the step [m]
-  Real cell_growth;      // r at the end of the step
-  Real mixed;            // fraction of the band that shear mixes in the step, 0 to 1
-  Real body_heat;        // enthalpy of material from the body at the top [J/m3]
-  Real body_water;       // its ice and water [kg/m3]
+  double dt;               // [s]
+  double normal_pressure;  // N [Pa], at least 0
+  double heat_flux;        // eta tau v [W/m2]
+  double stretching;       // dA/dt / A [1/s]
+  double thickness;        // of the band at the end of the step [m]
+  double cell_growth;      // r at the end of the step
+  double mixed;            // fraction of the band that shear mixes in the step, 0 to 1
+  double body_heat;        // enthalpy of material from the body at the top [J/m3]
+  double body_water;       // its ice and water [kg/m3]
 };
 
 // Budget of a column, per area at the end of the step.
 struct ColumnBudget {
-  Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
-  Real body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
+  double friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
+  double body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
 };
 
 // Ice and water [kg/m3] of material with full pores at a temperature [C].
 template <class Curve>
-THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Curve>& model, Real temperature) {
-  const Real saturation = model.curve.saturation(temperature);
-  return model.porosity * (saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density);
+THAWSLIDE_HD double water_of_full_pores(const ColumnModel<Curve>& model, double temperature) {
+  const double saturation = model.curve.saturation(temperature);
+  return model.porosity * (saturation * model.phases.water_density + (1.0 - saturation) * model.phases.ice_density);
 }
 
 // Ratio r at which the top of the column is at the depth of the sliding mass above its base [m]:
@@ -93,26 +92,26 @@ THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Curve>& model, Real temp
 // For depths at least that of the column of ratio `full`, r is exactly `full`. For depths below 2.5 e, r is 1: all
 // cells have the same height, and the column is higher than the sliding mass. The sum is convex in r; Newton's
 // iteration therefore descends from `full` to the root without passing it.
-inline THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
+inline THAWSLIDE_HD double cell_growth_below(double depth, double thickness, double full) {
   constexpr int most_iterations = 50;
-  constexpr Real close = 1e-15;
-  const Real cells = ColumnCells::band * (depth / thickness - Real(1));  // required value of the sum
-  Real growth = full;
+  constexpr double close = 1e-15;
+  const double cells = ColumnCells::band * (depth / thickness - 1.0);  // required value of the sum
+  double growth = full;
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    Real sum = 0, slope = 0;
+    double sum = 0, slope = 0;
     THAWSLIDE_ROLLED for (int j = 0; j < ColumnCells::above; ++j) {
       slope = slope * growth + sum;
-      sum = sum * growth + Real(1);
+      sum = sum * growth + 1.0;
     }
     slope = slope * growth + sum;
     sum *= growth;
-    const Real step = (sum - cells) / slope;
+    const double step = (sum - cells) / slope;
     if (!(step > close)) {
       break;
     }
     growth -= step;
-    if (growth <= Real(1)) {
-      return min(Real(1), full);
+    if (growth <= 1.0) {
+      return min(1.0, full);
     }
   }
   return growth;
@@ -122,16 +121,16 @@ inline THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full
 // separate ratio in the ground. Face f of the sliding mass is the lower one of its cell f; face 0 is the base.
 class ColumnGrid {
  public:
-  THAWSLIDE_HD ColumnGrid(Real thickness, Real cell_growth, Real ground_cell, Real ground_growth) {
-    const Real cell = thickness / ColumnCells::band;
-    face_[0] = Real(0);
-    THAWSLIDE_ROLLED for (int f = 1; f <= ColumnCells::band; ++f) { face_[f] = cell * static_cast<Real>(f); }
-    Real height = cell;
+  THAWSLIDE_HD ColumnGrid(double thickness, double cell_growth, double ground_cell, double ground_growth) {
+    const double cell = thickness / ColumnCells::band;
+    face_[0] = 0.0;
+    THAWSLIDE_ROLLED for (int f = 1; f <= ColumnCells::band; ++f) { face_[f] = cell * static_cast<double>(f); }
+    double height = cell;
     THAWSLIDE_ROLLED for (int f = ColumnCells::band + 1; f <= ColumnCells::slide; ++f) {
       height *= cell_growth;
       face_[f] = face_[f - 1] + height;
     }
-    Real depth = ground_cell;
+    double depth = ground_cell;
     THAWSLIDE_ROLLED for (int k = ColumnCells::ground - 1; k >= 0; --k) {
       height_[k] = depth;
       depth *= ground_growth;
@@ -140,17 +139,17 @@ class ColumnGrid {
       height_[ColumnCells::ground + k] = face_[k + 1] - face_[k];
     }
   }
-  [[nodiscard]] THAWSLIDE_HD Real face(int f) const { return face_[f]; }  // of the sliding mass, above the base [m]
-  [[nodiscard]] THAWSLIDE_HD Real height(int cell) const { return height_[cell]; }  // of any cell [m]
-  [[nodiscard]] THAWSLIDE_HD Real slide_height(int cell) const { return height_[ColumnCells::ground + cell]; }
+  [[nodiscard]] THAWSLIDE_HD double face(int f) const { return face_[f]; }  // of the sliding mass, above the base [m]
+  [[nodiscard]] THAWSLIDE_HD double height(int cell) const { return height_[cell]; }  // of any cell [m]
+  [[nodiscard]] THAWSLIDE_HD double slide_height(int cell) const { return height_[ColumnCells::ground + cell]; }
 
  private:
-  Real face_[ColumnCells::slide + 1];
-  Real height_[ColumnCells::all];
+  double face_[ColumnCells::slide + 1];
+  double height_[ColumnCells::all];
 };
 
 template <class Curve>
-THAWSLIDE_HD ColumnGrid grid_of(const ColumnModel<Curve>& model, Real thickness, Real cell_growth) {
+THAWSLIDE_HD ColumnGrid grid_of(const ColumnModel<Curve>& model, double thickness, double cell_growth) {
   return {thickness, cell_growth, model.ground_cell, model.growth};
 }
 template <class Curve>

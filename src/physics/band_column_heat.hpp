@@ -9,26 +9,27 @@ namespace thawslide::physics {
 
 // Capacities and latent heat of a cell of the sliding mass, per area: rock by volume, ice and water by mass [kg/m2].
 template <class Curve>
-THAWSLIDE_HD EnthalpyCoefficients<Real> slide_coefficients(const ColumnModel<Curve>& model, Real height, Real water) {
+THAWSLIDE_HD EnthalpyCoefficients<double> slide_coefficients(const ColumnModel<Curve>& model, double height,
+                                                             double water) {
   const Phases& phases = model.phases;
-  const Real rock = (Real(1) - model.porosity) * height * phases.rock_density * phases.rock_heat_capacity;
+  const double rock = (1.0 - model.porosity) * height * phases.rock_density * phases.rock_heat_capacity;
   return {rock + water * phases.ice_heat_capacity, water * (phases.water_heat_capacity - phases.ice_heat_capacity),
-          model.latent ? water * phases.latent_heat : Real(0)};
+          model.latent ? water * phases.latent_heat : 0.0};
 }
 
 template <class Curve>
-THAWSLIDE_HD EnthalpyCoefficients<Real> cell_coefficients(const ColumnModel<Curve>& model, const ColumnGrid& grid,
-                                                          const BandColumn& column, int cell) {
+THAWSLIDE_HD EnthalpyCoefficients<double> cell_coefficients(const ColumnModel<Curve>& model, const ColumnGrid& grid,
+                                                            const BandColumn& column, int cell) {
   if (cell < ColumnCells::ground) {
-    return {model.ground_capacity * grid.height(cell), Real(0), Real(0)};
+    return {model.ground_capacity * grid.height(cell), 0.0, 0.0};
   }
   return slide_coefficients(model, grid.height(cell), column.water[cell - ColumnCells::ground]);
 }
 
 // Enthalpy of melted water [J/kg], relative to ice at Tref.
 template <class Curve>
-THAWSLIDE_HD Real water_enthalpy(const ColumnModel<Curve>& model, Real temperature) {
-  return (model.latent ? model.phases.latent_heat : Real(0)) +
+THAWSLIDE_HD double water_enthalpy(const ColumnModel<Curve>& model, double temperature) {
+  return (model.latent ? model.phases.latent_heat : 0.0) +
          model.phases.water_heat_capacity * (temperature - model.curve.reference_temperature);
 }
 
@@ -41,8 +42,8 @@ THAWSLIDE_HD bool is_melted(const ColumnModel<Curve>& model, const BandColumn& c
 // Temperature [C] of a cell with this enthalpy [J/m2]. guess: initial value of the iteration. The ground does not
 // freeze.
 template <class Curve>
-THAWSLIDE_HD Real cell_temperature(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
-                                   int cell, Real heat, Real guess) {
+THAWSLIDE_HD double cell_temperature(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
+                                     int cell, double heat, double guess) {
   const auto of = cell_coefficients(model, grid, column, cell);
   return cell < ColumnCells::ground ? model.curve.reference_temperature + heat / of.frozen
                                     : temperature_of_enthalpy(model.curve, of, heat, guess);
@@ -58,44 +59,44 @@ THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Curve>& model, const 
 // Heat conductance [W/m2/K] between cells k and k + 1.
 template <class Curve>
 struct ColumnConductance {
-  Real between[ColumnCells::all - 1];
+  double between[ColumnCells::all - 1];
 
   THAWSLIDE_HD ColumnConductance(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column) {
-    Real below = half_resistance(model, grid, column, 0);
+    double below = half_resistance(model, grid, column, 0);
     THAWSLIDE_ROLLED for (int k = 0; k + 1 < ColumnCells::all; ++k) {
-      const Real above = half_resistance(model, grid, column, k + 1);
-      between[k] = Real(1) / (below + above);
+      const double above = half_resistance(model, grid, column, k + 1);
+      between[k] = 1.0 / (below + above);
       below = above;
     }
   }
 
  private:
   // Only the fraction of the pores filled with ice and water conducts; steam and air do not.
-  THAWSLIDE_HD static Real of_slide(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
-                                    int k) {
-    const Real saturation = model.curve.saturation(column.temperature[k]);
-    const Real full = saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density;
-    const Real volume = column.water[k - ColumnCells::ground] / (full * grid.height(k));
-    const Real rock = (Real(1) - model.porosity) * model.phases.rock_conductivity;
-    const Real of_pores = conductivity(model.phases, model.porosity, saturation) - rock;
-    return rock + of_pores * min(Real(1), max(Real(0), volume / model.porosity));
+  THAWSLIDE_HD static double of_slide(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
+                                      int k) {
+    const double saturation = model.curve.saturation(column.temperature[k]);
+    const double full = saturation * model.phases.water_density + (1.0 - saturation) * model.phases.ice_density;
+    const double volume = column.water[k - ColumnCells::ground] / (full * grid.height(k));
+    const double rock = (1.0 - model.porosity) * model.phases.rock_conductivity;
+    const double of_pores = conductivity(model.phases, model.porosity, saturation) - rock;
+    return rock + of_pores * min(1.0, max(0.0, volume / model.porosity));
   }
 
-  THAWSLIDE_HD static Real half_resistance(const ColumnModel<Curve>& model, const ColumnGrid& grid,
-                                           const BandColumn& column, int k) {
+  THAWSLIDE_HD static double half_resistance(const ColumnModel<Curve>& model, const ColumnGrid& grid,
+                                             const BandColumn& column, int k) {
     return grid.height(k) /
-           (Real(2) * (k < ColumnCells::ground ? model.ground_conductivity : of_slide(model, grid, column, k)));
+           (2.0 * (k < ColumnCells::ground ? model.ground_conductivity : of_slide(model, grid, column, k)));
   }
 };
 
 // Solves a tridiagonal system in place; the solution replaces `right`. below[k] and above[k] couple k to its
 // neighbours.
 template <int Count>
-THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Real* above, Real* right) {
-  diagonal[0] = Real(1) / diagonal[0];  // inverse from here on
+THAWSLIDE_HD void solve_tridiagonal(const double* below, double* diagonal, const double* above, double* right) {
+  diagonal[0] = 1.0 / diagonal[0];  // inverse from here on
   THAWSLIDE_ROLLED for (int k = 1; k < Count; ++k) {
-    const Real factor = below[k] * diagonal[k - 1];
-    diagonal[k] = Real(1) / (diagonal[k] - factor * above[k - 1]);
+    const double factor = below[k] * diagonal[k - 1];
+    diagonal[k] = 1.0 / (diagonal[k] - factor * above[k - 1]);
     right[k] -= factor * right[k - 1];
   }
   right[Count - 1] *= diagonal[Count - 1];
@@ -108,29 +109,29 @@ THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Rea
 // nonlinear). Conservative: the heat that leaves a cell enters its neighbour. `column.heat` holds the enthalpies
 // including the friction heat of the step.
 template <class Curve>
-THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real dt,
+THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const ColumnGrid& grid, double dt,
                                     BandColumn& column) {
   constexpr int count = ColumnCells::all, most_iterations = 12;
-  constexpr Real close = 1e-7;  // [K]
+  constexpr double close = 1e-7;  // [K]
   const ColumnConductance<Curve> conductance(model, grid, column);
-  Real guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
+  double guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { guess[k] = column.heat[k]; }
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    Real below[count], diagonal[count], above[count], change[count], capacity[count];
-    flow[0] = flow[count] = Real(0);
+    double below[count], diagonal[count], above[count], change[count], capacity[count];
+    flow[0] = flow[count] = 0.0;
     THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
       flow[k] = dt * conductance.between[k - 1] * (column.temperature[k - 1] - column.temperature[k]);
     }
     THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       capacity[k] =
           physics::apparent_capacity(model.curve, cell_coefficients(model, grid, column, k), column.temperature[k]);
-      below[k] = k > 0 ? -dt * conductance.between[k - 1] : Real(0);
-      above[k] = k + 1 < count ? -dt * conductance.between[k] : Real(0);
+      below[k] = k > 0 ? -dt * conductance.between[k - 1] : 0.0;
+      above[k] = k + 1 < count ? -dt * conductance.between[k] : 0.0;
       diagonal[k] = capacity[k] - below[k] - above[k];
       change[k] = column.heat[k] + flow[k] - flow[k + 1] - guess[k];
     }
     solve_tridiagonal<count>(below, diagonal, above, change);
-    Real largest = 0;
+    double largest = 0;
     THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       guess[k] += capacity[k] * change[k];
       largest = max(largest, std::abs(change[k]));
@@ -148,10 +149,10 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const Colum
 
 // Removes water from a cell as steam, with its heat. steam [kg/m2].
 template <class Curve>
-THAWSLIDE_HD void release_steam(const ColumnModel<Curve>& model, Real steam, int cell, BandColumn& column,
+THAWSLIDE_HD void release_steam(const ColumnModel<Curve>& model, double steam, int cell, BandColumn& column,
                                 ColumnBudget& budget) {
-  const Real temperature = column.temperature[ColumnCells::ground + cell];
-  const Real heat = steam * (water_enthalpy(model, temperature) + heat_of_vaporization(temperature));
+  const double temperature = column.temperature[ColumnCells::ground + cell];
+  const double heat = steam * (water_enthalpy(model, temperature) + heat_of_vaporization(temperature));
   column.water[cell] -= steam;
   column.heat[ColumnCells::ground + cell] -= heat;
   budget.steam += steam;
@@ -161,20 +162,20 @@ THAWSLIDE_HD void release_steam(const ColumnModel<Curve>& model, Real steam, int
 // Boils water at the temperature at which its steam pressure reaches the load. Heat above that temperature converts
 // water to steam, which escapes from below the sliding mass, until no water is left. Dry material is heated further.
 template <class Curve>
-THAWSLIDE_HD void boil(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real normal_pressure,
+THAWSLIDE_HD void boil(const ColumnModel<Curve>& model, const ColumnGrid& grid, double normal_pressure,
                        BandColumn& column, ColumnBudget& budget) {
-  Real boiling = 0;  // [C], 0: not computed yet
+  double boiling = 0;  // [C], 0: not computed yet
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
-    Real& temperature = column.temperature[ColumnCells::ground + k];
-    if (!(temperature > Steam::boiling_at_atmosphere) || !(column.water[k] > Real(0))) {
+    double& temperature = column.temperature[ColumnCells::ground + k];
+    if (!(temperature > Steam::boiling_at_atmosphere) || !(column.water[k] > 0.0)) {
       continue;
     }
-    if (boiling == Real(0)) {
-      boiling = boiling_temperature(model.pressurization ? normal_pressure : Real(0));
+    if (boiling == 0.0) {
+      boiling = boiling_temperature(model.pressurization ? normal_pressure : 0.0);
     }
     if (temperature > boiling) {
       const int cell = ColumnCells::ground + k;
-      const Real surplus =
+      const double surplus =
           column.heat[cell] - enthalpy(model.curve, cell_coefficients(model, grid, column, cell), boiling);
       temperature = boiling;
       release_steam(model, min(column.water[k], surplus / heat_of_vaporization(boiling)), k, column, budget);
@@ -184,10 +185,10 @@ THAWSLIDE_HD void boil(const ColumnModel<Curve>& model, const ColumnGrid& grid, 
 
 // Steam pressure in a cell with water [Pa], above atmospheric pressure: 0 below 100 C.
 template <class Curve>
-THAWSLIDE_HD Real steam_pressure(const ColumnModel<Curve>& model, const BandColumn& column, int cell) {
-  const Real temperature = column.temperature[ColumnCells::ground + cell];
-  if (!model.steam || !(temperature > Steam::boiling_at_atmosphere) || !(column.water[cell] > Real(0))) {
-    return Real(0);
+THAWSLIDE_HD double steam_pressure(const ColumnModel<Curve>& model, const BandColumn& column, int cell) {
+  const double temperature = column.temperature[ColumnCells::ground + cell];
+  if (!model.steam || !(temperature > Steam::boiling_at_atmosphere) || !(column.water[cell] > 0.0)) {
+    return 0.0;
   }
   return saturation_pressure(temperature) - Steam::atmosphere;
 }

@@ -10,11 +10,11 @@ namespace thawslide::physics {
 
 // Largest fraction of a cell's content that moves to its neighbours or the body when faces move from one grid to
 // another while material spreads. left: old area over new area. Up to 1, no cell loses more than its content.
-inline THAWSLIDE_HD Real largest_fraction_given(const ColumnGrid& before, const ColumnGrid& after, Real left) {
-  Real largest = 0, below = 0;  // below: height swept by the cell's lower face [m]
+inline THAWSLIDE_HD double largest_fraction_given(const ColumnGrid& before, const ColumnGrid& after, double left) {
+  double largest = 0, below = 0;  // below: height swept by the cell's lower face [m]
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
-    const Real above = after.face(k + 1) - left * before.face(k + 1);
-    const Real given = max(below, Real(0)) + max(-above, Real(0));
+    const double above = after.face(k + 1) - left * before.face(k + 1);
+    const double given = max(below, 0.0) + max(-above, 0.0);
     largest = max(largest, given / (left * before.slide_height(k)));
     below = above;
   }
@@ -23,16 +23,16 @@ inline THAWSLIDE_HD Real largest_fraction_given(const ColumnGrid& before, const 
 
 // Motion of a column's faces in a step.
 struct ColumnChange {
-  Real stretch;                        // logarithm of new area over old area
-  Real thickness, next_thickness;      // of the band, before and after [m]
-  Real cell_growth, next_cell_growth;  // r
+  double stretch;                        // logarithm of new area over old area
+  double thickness, next_thickness;      // of the band, before and after [m]
+  double cell_growth, next_cell_growth;  // r
 
   // After `part` of `parts` equal parts of the step.
-  [[nodiscard]] THAWSLIDE_HD Real thickness_after(int part, int parts) const {
-    return thickness + (next_thickness - thickness) * static_cast<Real>(part) / static_cast<Real>(parts);
+  [[nodiscard]] THAWSLIDE_HD double thickness_after(int part, int parts) const {
+    return thickness + (next_thickness - thickness) * static_cast<double>(part) / static_cast<double>(parts);
   }
-  [[nodiscard]] THAWSLIDE_HD Real cell_growth_after(int part, int parts) const {
-    return cell_growth + (next_cell_growth - cell_growth) * static_cast<Real>(part) / static_cast<Real>(parts);
+  [[nodiscard]] THAWSLIDE_HD double cell_growth_after(int part, int parts) const {
+    return cell_growth + (next_cell_growth - cell_growth) * static_cast<double>(part) / static_cast<double>(parts);
   }
 };
 
@@ -40,21 +40,21 @@ struct ColumnChange {
 // content. The second condition applies if cells are thin compared with their height above the base.
 template <class Curve>
 THAWSLIDE_HD int parts_of(const ColumnModel<Curve>& model, const ColumnChange& change) {
-  constexpr Real most_stretch = static_cast<Real>(0.1);
-  int parts = static_cast<int>(max(Real(1), std::ceil(std::abs(change.stretch) / most_stretch)));
+  constexpr double most_stretch = 0.1;
+  int parts = static_cast<int>(max(1.0, std::ceil(std::abs(change.stretch) / most_stretch)));
   while (true) {
-    const Real left = std::exp(-change.stretch / static_cast<Real>(parts));
-    Real largest = 0;
+    const double left = std::exp(-change.stretch / static_cast<double>(parts));
+    double largest = 0;
     THAWSLIDE_ROLLED for (int part = 0; part < parts; ++part) {
       const auto grid_after = [&](int count) {
         return grid_of(model, change.thickness_after(count, parts), change.cell_growth_after(count, parts));
       };
       largest = max(largest, largest_fraction_given(grid_after(part), grid_after(part + 1), left));
     }
-    if (!(largest > Real(1))) {
+    if (!(largest > 1.0)) {
       return parts;
     }
-    parts = static_cast<int>(max(static_cast<Real>(parts + 1), std::ceil(static_cast<Real>(parts) * largest)));
+    parts = static_cast<int>(max(static_cast<double>(parts + 1), std::ceil(static_cast<double>(parts) * largest)));
   }
 }
 
@@ -65,24 +65,24 @@ THAWSLIDE_HD void mix_in_surroundings(const ColumnModel<Curve>& model, const Col
                                       const ColumnGrid& after, const ColumnDrive& drive, BandColumn& column,
                                       ColumnBudget& budget) {
   constexpr int count = ColumnCells::slide;
-  const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new area
-  Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // downward through each lower face
+  const double left = 1.0 / (1.0 + drive.stretching * drive.dt);                // old area over new area
+  double heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // downward through each lower face
   THAWSLIDE_ROLLED for (int f = 1; f <= count; ++f) {
-    const Real swept = after.face(f) - left * before.face(f);  // [m]
-    if (swept > Real(0) && f == count) {
+    const double swept = after.face(f) - left * before.face(f);  // [m]
+    if (swept > 0.0 && f == count) {
       heat[f] = swept * drive.body_heat;
       water[f] = swept * drive.body_water;
       thawing[f] = swept * column.thawing[count - 1];
     } else {
-      const int from = swept > Real(0) ? f : f - 1;
-      const Real fraction = swept / before.slide_height(from);
+      const int from = swept > 0.0 ? f : f - 1;
+      const double fraction = swept / before.slide_height(from);
       heat[f] = fraction * column.heat[ColumnCells::ground + from];
       water[f] = fraction * column.water[from];
       thawing[f] = swept * column.thawing[from];
     }
   }
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
-    Real& of_cell = column.heat[ColumnCells::ground + k];
+    double& of_cell = column.heat[ColumnCells::ground + k];
     of_cell = left * of_cell + heat[k + 1] - heat[k];
     column.water[k] = left * column.water[k] + water[k + 1] - water[k];
     column.thawing[k] =
@@ -90,7 +90,7 @@ THAWSLIDE_HD void mix_in_surroundings(const ColumnModel<Curve>& model, const Col
   }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground;
                         ++k) {  // newly covered ground has the temperature of the segment's ground
-    budget.ground_heat += (Real(1) - left) * column.heat[k];
+    budget.ground_heat += (1.0 - left) * column.heat[k];
   }
   column.thickness = drive.thickness;
   column.cell_growth = drive.cell_growth;
@@ -101,13 +101,13 @@ THAWSLIDE_HD void mix_in_surroundings(const ColumnModel<Curve>& model, const Col
 
 // Changes the cell growth of a column, with exchange with the body at the top [J/m3, kg/m3]. Pressures are not updated.
 template <class Curve>
-THAWSLIDE_HD ColumnBudget apply_cell_growth(const ColumnModel<Curve>& model, Real cell_growth, Real body_heat,
-                                            Real body_water, BandColumn& column) {
+THAWSLIDE_HD ColumnBudget apply_cell_growth(const ColumnModel<Curve>& model, double cell_growth, double body_heat,
+                                            double body_water, BandColumn& column) {
   ColumnBudget budget;
   if (cell_growth == column.cell_growth) {
     return budget;
   }
-  const ColumnChange change{Real(0), column.thickness, column.thickness, column.cell_growth, cell_growth};
+  const ColumnChange change{0.0, column.thickness, column.thickness, column.cell_growth, cell_growth};
   const int parts = parts_of(model, change);
   ColumnDrive drive{};
   drive.thickness = column.thickness;

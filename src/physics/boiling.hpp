@@ -12,40 +12,40 @@
 namespace thawslide::physics {
 
 struct Steam {
-  static constexpr Real atmosphere = static_cast<Real>(101325);            // P_atm [Pa]
-  static constexpr Real gas_constant = static_cast<Real>(461.5);           // R_v [J/kg/K]
-  static constexpr Real boiling_at_atmosphere = static_cast<Real>(100.0);  // [C]
-  static constexpr Real heat_at_zero = static_cast<Real>(2.5e6);           // L_v at 0 C [J/kg]
-  static constexpr Real heat_lost_per_kelvin = static_cast<Real>(2360);    // [J/kg/K]
+  static constexpr double atmosphere = static_cast<double>(101325);          // P_atm [Pa]
+  static constexpr double gas_constant = 461.5;                              // R_v [J/kg/K]
+  static constexpr double boiling_at_atmosphere = 100.0;                     // [C]
+  static constexpr double heat_at_zero = 2.5e6;                              // L_v at 0 C [J/kg]
+  static constexpr double heat_lost_per_kelvin = static_cast<double>(2360);  // [J/kg/K]
 };
 
 // L_v [J/kg] at temperature [C].
-inline THAWSLIDE_HD Real heat_of_vaporization(Real temperature) {
+inline THAWSLIDE_HD double heat_of_vaporization(double temperature) {
   return Steam::heat_at_zero - Steam::heat_lost_per_kelvin * temperature;
 }
 
 // Absolute pressure [Pa] at which water of this temperature [C] boils.
-inline THAWSLIDE_HD Real saturation_pressure(Real temperature) {
+inline THAWSLIDE_HD double saturation_pressure(double temperature) {
   using Water = Steam;
-  const Real absolute = temperature + celsius_to_kelvin;
-  const Real at_atmosphere = Water::boiling_at_atmosphere + celsius_to_kelvin;
-  const Real extrapolated = Water::heat_at_zero + Water::heat_lost_per_kelvin * celsius_to_kelvin;
-  const Real exponent = extrapolated * (Real(1) / at_atmosphere - Real(1) / absolute) -
-                        Water::heat_lost_per_kelvin * std::log(absolute / at_atmosphere);
+  const double absolute = temperature + celsius_to_kelvin;
+  const double at_atmosphere = Water::boiling_at_atmosphere + celsius_to_kelvin;
+  const double extrapolated = Water::heat_at_zero + Water::heat_lost_per_kelvin * celsius_to_kelvin;
+  const double exponent = extrapolated * (1.0 / at_atmosphere - 1.0 / absolute) -
+                          Water::heat_lost_per_kelvin * std::log(absolute / at_atmosphere);
   return Water::atmosphere * std::exp(exponent / Water::gas_constant);
 }
 
 // T_sat [C]: boiling temperature at a pore pressure [Pa] above atmospheric pressure.
-inline THAWSLIDE_HD Real boiling_temperature(Real pore_pressure) {
+inline THAWSLIDE_HD double boiling_temperature(double pore_pressure) {
   using Water = Steam;
-  const Real wanted = std::log(Real(1) + pore_pressure / Water::atmosphere);
-  Real temperature = Water::boiling_at_atmosphere;
+  const double wanted = std::log(1.0 + pore_pressure / Water::atmosphere);
+  double temperature = Water::boiling_at_atmosphere;
   constexpr int most_iterations = 20;
-  constexpr Real close = 1e-9;
+  constexpr double close = 1e-9;
   for (int k = 0; k < most_iterations; ++k) {  // Newton's iteration: ln P is concave in T
-    const Real absolute = temperature + celsius_to_kelvin;
-    const Real excess = wanted - std::log(saturation_pressure(temperature) / Water::atmosphere);
-    const Real change = excess * Water::gas_constant * absolute * absolute / heat_of_vaporization(temperature);
+    const double absolute = temperature + celsius_to_kelvin;
+    const double excess = wanted - std::log(saturation_pressure(temperature) / Water::atmosphere);
+    const double change = excess * Water::gas_constant * absolute * absolute / heat_of_vaporization(temperature);
     temperature += change;
     if (std::abs(change) < close) {
       break;

@@ -14,7 +14,7 @@ namespace thawslide::physics {
 
 // P_I [Pa]; gravity [m/s2], depth H [m].
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases& phases, Real gravity, Value depth) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases& phases, double gravity, Value depth) {
   return phases.ice_density * gravity * depth;
 }
 
@@ -22,10 +22,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases& phases, Re
 // below 0 C it is about -12 MPa times a saturation of 1e-5.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value liquid_pressure_clapeyron(const Phases& phases, Value ice_pressure,
-                                                                     Value temperature, Real reference_temperature,
-                                                                     Real sign) {
+                                                                     Value temperature, double reference_temperature,
+                                                                     double sign) {
   const Value absolute = temperature + celsius_to_kelvin;
-  const Real reference = reference_temperature + celsius_to_kelvin;
+  const double reference = reference_temperature + celsius_to_kelvin;
   return phases.water_density / phases.ice_density * ice_pressure +
          sign * phases.water_density * phases.latent_heat * log_of_ratio(absolute, Value(reference));
 }

@@ -13,16 +13,16 @@ namespace thawslide::physics {
 
 // Momentum transferred from a node to the terrain [kg m/s], along n and along the slip.
 struct ContactImpulse {
-  Real normal;
-  Real tangential;
+  double normal;
+  double tangential;
   bool slides;
 };
 
 // normal_momentum p.n > 0 and tangential_momentum |p.t| >= 0 of the trial [kg m/s], contact area [m2], dt [s], sliding
 // strength [Pa].
-inline THAWSLIDE_HD ContactImpulse contact_impulse(Real normal_momentum, Real tangential_momentum, Real area, Real dt,
-                                                   Real sliding_strength) {
-  const Real available = sliding_strength * area * dt;
+inline THAWSLIDE_HD ContactImpulse contact_impulse(double normal_momentum, double tangential_momentum, double area,
+                                                   double dt, double sliding_strength) {
+  const double available = sliding_strength * area * dt;
   if (tangential_momentum <= available) {
     return {normal_momentum, tangential_momentum, false};
   }
@@ -35,17 +35,17 @@ inline THAWSLIDE_HD ContactImpulse contact_impulse(Real normal_momentum, Real ta
 // values: FrictionClamp.
 
 // S_slide of Eq. 17 [Pa]. Pressures [Pa]. cap_pressure: P is limited to N.
-inline THAWSLIDE_HD Real sliding_strength(Real friction_coefficient, Real normal_pressure, Real pore_pressure,
-                                          Real cohesion, FrictionClamp clamp, bool cap_pressure) {
-  Real effective = normal_pressure - pore_pressure;
-  if (cap_pressure && effective < Real(0)) {
-    effective = Real(0);
+inline THAWSLIDE_HD double sliding_strength(double friction_coefficient, double normal_pressure, double pore_pressure,
+                                            double cohesion, FrictionClamp clamp, bool cap_pressure) {
+  double effective = normal_pressure - pore_pressure;
+  if (cap_pressure && effective < 0.0) {
+    effective = 0.0;
   }
   if (clamp == FrictionClamp::joint) {
-    const Real strength = friction_coefficient * effective + cohesion;
-    return strength > Real(0) ? strength : Real(0);
+    const double strength = friction_coefficient * effective + cohesion;
+    return strength > 0.0 ? strength : 0.0;
   }
-  return friction_coefficient * (effective > Real(0) ? effective : Real(0)) + cohesion;
+  return friction_coefficient * (effective > 0.0 ? effective : 0.0) + cohesion;
 }
 
 // Slice of a sliding mass on a curved path: Eq. 12 normal to the path, whose normal rotates by kappa per path length.
@@ -53,33 +53,33 @@ inline THAWSLIDE_HD Real sliding_strength(Real friction_coefficient, Real normal
 // kappa: curvature of the path, positive for concave ground; g.n: gravity into the ground. Not in the paper.
 
 // N A [N] of a mass m [kg], with gravity into the ground g.n [m/s2], speed v [m/s] and curvature kappa [1/m].
-inline Real load_in_bend(Real mass, Real gravity_into_ground, Real speed, Real curvature) {
-  return max(Real(0), mass * (gravity_into_ground + speed * speed * curvature));
+inline double load_in_bend(double mass, double gravity_into_ground, double speed, double curvature) {
+  return max(0.0, mass * (gravity_into_ground + speed * speed * curvature));
 }
 
 // Contact of two bodies at a node where both have mass (Bardenhagen et al. 2000; Nairn 2013): impulse between them.
 
 // Impulse [kg m/s]: normal, which keeps the bodies apart, and tangential, by friction along the slip.
 struct BodyImpulse {
-  Real normal, tangential;
+  double normal, tangential;
 };
 
 // Closing speed of two bodies in a step, minus the part that closes the gap [m] between them; 0 if they separate.
-inline THAWSLIDE_HD Real closing_speed_beyond_gap(Real closing_speed, Real gap, Real dt) {
-  return max(Real(0), closing_speed - max(Real(0), gap) / dt);
+inline THAWSLIDE_HD double closing_speed_beyond_gap(double closing_speed, double gap, double dt) {
+  return max(0.0, closing_speed - max(0.0, gap) / dt);
 }
 
 // N = m (closing speed beyond the gap), T = min(m |slip speed|, mu N), with the mass m of a body that meets a fixed
 // one: it leaves the node without a velocity across the contact, and sticks or slides along it by Coulomb's law.
-inline THAWSLIDE_HD BodyImpulse impulse_on_fixed_body(Real mass, Real closing_speed, Real slip_speed, Real gap, Real dt,
-                                                      Real friction) {
-  const Real normal = mass * closing_speed_beyond_gap(closing_speed, gap, dt);
+inline THAWSLIDE_HD BodyImpulse impulse_on_fixed_body(double mass, double closing_speed, double slip_speed, double gap,
+                                                      double dt, double friction) {
+  const double normal = mass * closing_speed_beyond_gap(closing_speed, gap, dt);
   return {normal, min(mass * slip_speed, friction * normal)};
 }
 
 // The same with m = m_1 m_2 / (m_1 + m_2): the bodies leave the node with one velocity across the contact.
-inline THAWSLIDE_HD BodyImpulse body_impulse(Real mass, Real other_mass, Real closing_speed, Real slip_speed, Real gap,
-                                             Real dt, Real friction) {
+inline THAWSLIDE_HD BodyImpulse body_impulse(double mass, double other_mass, double closing_speed, double slip_speed,
+                                             double gap, double dt, double friction) {
   return impulse_on_fixed_body(mass * other_mass / (mass + other_mass), closing_speed, slip_speed, gap, dt, friction);
 }
 

@@ -10,24 +10,24 @@
 namespace thawslide::physics {
 
 struct Elastic {
-  Real lame_lambda = 0;    // lambda [Pa]
-  Real shear_modulus = 0;  // G [Pa]
+  double lame_lambda = 0;    // lambda [Pa]
+  double shear_modulus = 0;  // G [Pa]
 
   // Young's modulus E [Pa], Poisson's ratio nu.
-  THAWSLIDE_HD static Elastic from_young_poisson(Real youngs_modulus, Real poisson_ratio) {
-    return {youngs_modulus * poisson_ratio / ((Real(1) + poisson_ratio) * (Real(1) - Real(2) * poisson_ratio)),
-            youngs_modulus / (Real(2) * (Real(1) + poisson_ratio))};
+  THAWSLIDE_HD static Elastic from_young_poisson(double youngs_modulus, double poisson_ratio) {
+    return {youngs_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio)),
+            youngs_modulus / (2.0 * (1.0 + poisson_ratio))};
   }
 
   // lambda + 2 G [Pa]: stiffness in uniaxial compression without lateral strain; determines the wave speed.
-  [[nodiscard]] THAWSLIDE_HD Real p_wave_modulus() const { return lame_lambda + Real(2) * shear_modulus; }
+  [[nodiscard]] THAWSLIDE_HD double p_wave_modulus() const { return lame_lambda + 2.0 * shear_modulus; }
 };
 
 // Stress increment [Pa] of a strain increment.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(const Elastic& elastic,
                                                                              const SymmetricTensor<Value>& strain) {
-  SymmetricTensor<Value> stress = Value(Real(2) * elastic.shear_modulus) * strain;
+  SymmetricTensor<Value> stress = Value(2.0 * elastic.shear_modulus) * strain;
   const Value pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
   stress[0] += pressure;
   stress[1] += pressure;
@@ -36,12 +36,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(con
 }
 
 // Elastic energy density [J/m3] of a stress [Pa].
-inline Real elastic_energy_density(const Elastic& elastic, const SymmetricTensor<Real>& stress) {
-  const Real trace = stress[0] + stress[1] + stress[2];
-  const Real square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] +
-                      Real(2) * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]);
-  const Real lateral = elastic.lame_lambda / (Real(3) * elastic.lame_lambda + Real(2) * elastic.shear_modulus);
-  return (square - lateral * trace * trace) / (Real(4) * elastic.shear_modulus);
+inline double elastic_energy_density(const Elastic& elastic, const SymmetricTensor<double>& stress) {
+  const double trace = stress[0] + stress[1] + stress[2];
+  const double square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] +
+                        2.0 * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]);
+  const double lateral = elastic.lame_lambda / (3.0 * elastic.lame_lambda + 2.0 * elastic.shear_modulus);
+  return (square - lateral * trace * trace) / (4.0 * elastic.shear_modulus);
 }
 
 // Result of mapping an elastic trial stress by a constitutive law (Eq. 11), and the linear elastic law (Eq. 10).

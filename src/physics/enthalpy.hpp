@@ -42,7 +42,7 @@ THAWSLIDE_HD Value temperature_of_enthalpy(const Curve& curve, const EnthalpyCoe
   using std::abs;
   const auto melted = heat >= of.melting;
   constexpr int most_iterations = 100;
-  constexpr Real close = 1e-6;  // converges quadratically: the next change is round-off
+  constexpr double close = 1e-6;  // converges quadratically: the next change is round-off
   Value below = min(guess - curve.reference_temperature, Value(0));
   auto open = !melted;
   for (int k = 0; k < most_iterations && any(open); ++k) {

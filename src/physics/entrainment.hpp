@@ -19,22 +19,23 @@
 namespace thawslide::physics {
 
 // Bed strength [Pa]: cohesion c_b and normal pressure N [Pa], tan(phi_b) [1].
-inline THAWSLIDE_HD Real bed_strength(Real cohesion, Real tangent, Real normal_pressure) {
+inline THAWSLIDE_HD double bed_strength(double cohesion, double tangent, double normal_pressure) {
   return cohesion + tangent * normal_pressure;
 }
 
 // E of the strength law [m/s]: tau and tau_b [Pa], speed v [m/s], e [1].
-inline THAWSLIDE_HD Real erosion_by_strength(Real shear, Real strength, Real speed, Real depth_per_slip) {
-  return shear >= strength ? depth_per_slip * speed : Real(0);
+inline THAWSLIDE_HD double erosion_by_strength(double shear, double strength, double speed, double depth_per_slip) {
+  return shear >= strength ? depth_per_slip * speed : 0.0;
 }
 
 // E of the momentum law [m/s]: tau and tau_b [Pa], rho_b [kg/m3], speed v > 0 [m/s], e [1].
-inline THAWSLIDE_HD Real erosion_by_momentum(Real shear, Real strength, Real density, Real speed, Real depth_per_slip) {
-  return min(depth_per_slip * speed, max(shear - strength, Real(0)) / (density * speed));
+inline THAWSLIDE_HD double erosion_by_momentum(double shear, double strength, double density, double speed,
+                                               double depth_per_slip) {
+  return min(depth_per_slip * speed, max(shear - strength, 0.0) / (density * speed));
 }
 
 // v' [m/s] of a mass m at speed v after entraining the mass dm from rest [kg].
-inline THAWSLIDE_HD Real speed_after_entrainment(Real mass, Real speed, Real entrained) {
+inline THAWSLIDE_HD double speed_after_entrainment(double mass, double speed, double entrained) {
   return mass * speed / (mass + entrained);
 }
 

@@ -19,17 +19,17 @@ struct CurveValues {
 };
 
 // The exponent as an integer if it is one between 0 and 16, otherwise -1.
-inline THAWSLIDE_HD int whole_exponent(Real exponent) {
-  constexpr Real largest = 16;
-  const bool whole = exponent >= Real(0) && exponent <= largest && exponent == std::floor(exponent);
+inline THAWSLIDE_HD int whole_exponent(double exponent) {
+  constexpr double largest = 16;
+  const bool whole = exponent >= 0.0 && exponent <= largest && exponent == std::floor(exponent);
   return whole ? static_cast<int>(exponent) : -1;
 }
 
 // base^exponent, by multiplication unless `whole`, the exponent's whole_exponent, is -1.
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int whole) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, double exponent, int whole) {
   if (whole < 0) {
-    return cold_call(base, [&](Real number) { return std::pow(number, exponent); });
+    return cold_call(base, [&](double number) { return std::pow(number, exponent); });
   }
   constexpr int usual = 5;  // Eq. 24
   if (whole == usual) {
@@ -47,58 +47,56 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int 
 }
 
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, double exponent) {
   return power(base, exponent, whole_exponent(exponent));
 }
 
 struct PowerLawCurve {
-  Real reference_temperature;            // Tref [C]
-  Real exponent;                         // m
+  double reference_temperature;          // Tref [C]
+  double exponent;                       // m
   int whole = whole_exponent(exponent);  // derived from m
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
     const Value above = temperature - reference_temperature;
-    const Value base = Real(1) - min(above, Value(0));
-    const Value inverse = Real(1) / base;
+    const Value base = 1.0 - min(above, Value(0));
+    const Value inverse = 1.0 / base;
     const Value s = power(inverse, exponent, whole);
-    const Value frozen_integral = exponent == Real(1) ? -map_lanes(base, [](Real number) { return std::log(number); })
-                                                      : (base * s - Real(1)) / (exponent - Real(1));
-    return {s, select(above > Real(0), Value(0), exponent * s * inverse),
-            select(above > Real(0), above, frozen_integral)};
+    const Value frozen_integral = exponent == 1.0 ? -map_lanes(base, [](double number) { return std::log(number); })
+                                                  : (base * s - 1.0) / (exponent - 1.0);
+    return {s, select(above > 0.0, Value(0), exponent * s * inverse), select(above > 0.0, above, frozen_integral)};
   }
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
-    return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent, whole);
+    return 1.0 / power(1.0 - min(temperature - reference_temperature, Value(0)), exponent, whole);
   }
   // Temperature [C] at a saturation S, 0 < S <= 1; the lowest one for S = 1.
-  [[nodiscard]] THAWSLIDE_HD Real temperature(Real saturation) const {
-    return reference_temperature + Real(1) - std::pow(saturation, -Real(1) / exponent);
+  [[nodiscard]] THAWSLIDE_HD double temperature(double saturation) const {
+    return reference_temperature + 1.0 - std::pow(saturation, -1.0 / exponent);
   }
 };
 
 struct LinearCurve {
-  Real reference_temperature;  // Tref [C]
-  Real slope;                  // m [1/K]
+  double reference_temperature;  // Tref [C]
+  double slope;                  // m [1/K]
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
     const Value above = temperature - reference_temperature;
-    const Real frozen_below = -Real(1) / slope;
-    const auto melted = above > Real(0);
+    const double frozen_below = -1.0 / slope;
+    const auto melted = above > 0.0;
     const auto frozen = above < frozen_below;
-    return {select(melted, Value(1), select(frozen, Value(0), Real(1) + slope * above)),
+    return {select(melted, Value(1), select(frozen, Value(0), 1.0 + slope * above)),
             select(melted | frozen, Value(0), Value(slope)),
-            select(melted, above,
-                   select(frozen, Value(Real(0.5) * frozen_below), above * (Real(1) + Real(0.5) * slope * above)))};
+            select(melted, above, select(frozen, Value(0.5 * frozen_below), above * (1.0 + 0.5 * slope * above)))};
   }
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
     return at(temperature).saturation;
   }
   // Temperature [C] at a saturation S, 0 <= S <= 1; the highest one for S = 0, the lowest one for S = 1.
-  [[nodiscard]] THAWSLIDE_HD Real temperature(Real saturation) const {
-    return reference_temperature + (saturation - Real(1)) / slope;
+  [[nodiscard]] THAWSLIDE_HD double temperature(double saturation) const {
+    return reference_temperature + (saturation - 1.0) / slope;
   }
 };
 

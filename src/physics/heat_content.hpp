@@ -33,7 +33,7 @@ struct HeatContent {
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_negligible(Value change) const {
     using std::abs;
-    constexpr Real smallest_change = 1e-7;
+    constexpr double smallest_change = 1e-7;
     return abs(change) < smallest_change;
   }
 

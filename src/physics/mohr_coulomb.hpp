@@ -24,11 +24,11 @@ namespace thawslide::physics {
 
 // Angles in degrees.
 struct Strength {
-  Real friction_angle, dilation_angle;
-  Real cohesion, residual_cohesion;               // c_0, c_f [Pa]
-  Real tension_cutoff;                            // sigma_t [Pa]; infinity: none
-  Real softening_strain = 1;                      // eps_c
-  Real residual_friction_angle = friction_angle;  // phi_f, at least the dilation angle
+  double friction_angle, dilation_angle;
+  double cohesion, residual_cohesion;               // c_0, c_f [Pa]
+  double tension_cutoff;                            // sigma_t [Pa]; infinity: none
+  double softening_strain = 1;                      // eps_c
+  double residual_friction_angle = friction_angle;  // phi_f, at least the dilation angle
 };
 
 // friction_falls: the friction angle softens too. Otherwise, quantities that depend only on it are precomputed.
@@ -41,16 +41,16 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     law.residual_sine_ = sine_of(strength.residual_friction_angle);
     law.ratio_ = pressure_ratio(law.sine_);
     law.root_of_ratio_ = std::sqrt(law.ratio_);
-    const Real flow_ratio = pressure_ratio(sine_of(strength.dilation_angle));
+    const double flow_ratio = pressure_ratio(sine_of(strength.dilation_angle));
     law.cohesion_ = strength.cohesion;
     law.residual_cohesion_ = strength.residual_cohesion;
-    law.softening_rate_ = Real(1) / strength.softening_strain;
+    law.softening_rate_ = 1.0 / strength.softening_strain;
     law.tension_cutoff_ = strength.tension_cutoff;
     law.elastic_ = elastic;
     for (int j = 0; j < planes; ++j) {
-      const Vector<Real, 3> flow = normal(j, flow_ratio);
+      const Vector<double, 3> flow = normal(j, flow_ratio);
       law.relaxation_[j] =
-          Real(2) * elastic.shear_modulus * flow + Vector<Real, 3>::Constant(elastic.lame_lambda * flow.sum());
+          2.0 * elastic.shear_modulus * flow + Vector<double, 3>::Constant(elastic.lame_lambda * flow.sum());
     }
     if constexpr (!friction_falls) {
       for (int i = 0; i < planes; ++i) {
@@ -81,10 +81,10 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial,
                                                                     Value plastic_strain) const {
     // exp(-x) is nowhere below 1 - x.
-    const Value lowest_fraction = max(Real(1) - softening_rate_ * plastic_strain, Value(0));
+    const Value lowest_fraction = max(1.0 - softening_rate_ * plastic_strain, Value(0));
     const Value lowest_cohesion =
-        min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) * lowest_fraction;
-    const Surface<Value> of_intact_angle{ratio_, Real(2) * root_of_ratio_ * lowest_cohesion};
+        min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, 0.0) * lowest_fraction;
+    const Surface<Value> of_intact_angle{ratio_, 2.0 * root_of_ratio_ * lowest_cohesion};
     if constexpr (friction_falls) {
       // As a function of phi, F decreases and then increases: a stress inside the surface at both ends is inside in
       // between.
@@ -121,7 +121,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     for (int c = 0; c < 6; ++c) {
       result.stress[c] = select(yielded, stress[c], trial[c]);
     }
-    result.equivalent_plastic_strain_increment = if_yielded(sqrt(Real(2) / Real(3) * plastic.squaredNorm()));
+    result.equivalent_plastic_strain_increment = if_yielded(sqrt(2.0 / 3.0 * plastic.squaredNorm()));
     result.plastic_work_density = if_yielded(state.values.dot(plastic));
     result.opening = if_yielded(torn * plastic.sum());
     result.yielded = yielded;
@@ -131,12 +131,12 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
  private:
   // Planes for ordered principal stresses: Mohr-Coulomb of (s1, s3), (s1, s2), (s2, s3); cut-off of s1, s2, s3.
   static constexpr int planes = 6;
-  static constexpr Real round_off = 1e-12;
+  static constexpr double round_off = 1e-12;
 
   // k s1 - s3 = shear limit: k and 2 c sqrt(k) [Pa].
   template <class Value>
   struct Surface {
-    std::conditional_t<friction_falls, Value, Real> ratio;
+    std::conditional_t<friction_falls, Value, double> ratio;
     Value shear_limit;
   };
 
@@ -157,7 +157,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   // w: remaining fraction of the softening strength.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value fraction_left(Value plastic_strain) const {
-    return map_lanes(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
+    return map_lanes(softening_rate_ * plastic_strain, [](double strains) { return std::exp(-strains); });
   }
 
   // Surface for a fraction of the softening sine and a cohesion [Pa].
@@ -165,7 +165,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_of(Value fraction, Value cohesion) const {
     using std::sqrt;
     const Value ratio = pressure_ratio<Value>(residual_sine_ + (sine_ - residual_sine_) * fraction);
-    return {ratio, Real(2) * sqrt(ratio) * cohesion};
+    return {ratio, 2.0 * sqrt(ratio) * cohesion};
   }
 
   template <class Value>
@@ -174,7 +174,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
       const Value fraction = fraction_left(plastic_strain);
       return surface_of<Value>(fraction, residual_cohesion_ + (cohesion_ - residual_cohesion_) * fraction);
     } else {
-      return {ratio_, Real(2) * root_of_ratio_ * cohesion(plastic_strain)};
+      return {ratio_, 2.0 * root_of_ratio_ * cohesion(plastic_strain)};
     }
   }
 
@@ -193,7 +193,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
                                                                     const Surface<Value>& surface) const {
     using std::sqrt;
     if constexpr (Dim == 2) {
-      const Value centre = Real(0.5) * (trial[0] + trial[1]), half_difference = Real(0.5) * (trial[0] - trial[1]);
+      const Value centre = 0.5 * (trial[0] + trial[1]), half_difference = 0.5 * (trial[0] - trial[1]);
       const Value radius = sqrt(half_difference * half_difference + trial[3] * trial[3]);
       return !is_elastic(max(centre + radius, trial[2]), min(centre - radius, trial[2]), surface);
     } else {
@@ -209,16 +209,16 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     using std::sqrt;
     const Value mean = (s[0] + s[1] + s[2]) / Value(3);
     const Value a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
-    const Value second_invariant = Real(0.5) * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
-    const Value reach = Real(2) * sqrt(second_invariant / Real(3));
+    const Value second_invariant = 0.5 * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+    const Value reach = 2.0 * sqrt(second_invariant / 3.0);
     return is_elastic(mean + reach, mean - reach, surface);
   }
 
-  static Real sine_of(Real degrees) { return std::sin(degrees * pi / Real(180)); }
+  static double sine_of(double degrees) { return std::sin(degrees * pi / 180.0); }
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Value pressure_ratio(Value sine) {
-    return (Real(1) + sine) / (Real(1) - sine);
+    return (1.0 + sine) / (1.0 - sine);
   }
 
   template <class Value>
@@ -326,9 +326,9 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   // Elastic strain of a principal stress.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> elastic_strain(const Vector<Value, 3>& stress) const {
-    const Real two_shear = Real(2) * elastic_.shear_modulus;
-    const Value mean = elastic_.lame_lambda / (two_shear + Real(3) * elastic_.lame_lambda) * stress.sum();
-    const Value compliance = Real(1) / two_shear;
+    const double two_shear = 2.0 * elastic_.shear_modulus;
+    const Value mean = elastic_.lame_lambda / (two_shear + 3.0 * elastic_.lame_lambda) * stress.sum();
+    const Value compliance = 1.0 / two_shear;
     return compliance * (stress - Vector<Value, 3>::Constant(mean));
   }
 
@@ -340,7 +340,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     for (int a = 0; a < 3 && a < set.count; ++a) {
       const auto& normal = normal_at(set.plane[a], ratio);
       for (int b = 0; b < 3 && b < set.count; ++b) {
-        const Vector<Real, 3>& relaxation = relaxation_[set.plane[b]];
+        const Vector<double, 3>& relaxation = relaxation_[set.plane[b]];
         coupling(a, b) = normal[0] * relaxation[0] + normal[1] * relaxation[1] + normal[2] * relaxation[2];
       }
     }
@@ -351,7 +351,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   template <class Ratio>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Ratio inverse_coupling_of_face(Ratio ratio) const {
     if constexpr (friction_falls) {
-      return Real(1) / (ratio * relaxation_[0][0] - relaxation_[0][2]);
+      return 1.0 / (ratio * relaxation_[0][0] - relaxation_[0][2]);
     } else {
       return of_angle_.inverse_coupling[0](0, 0);
     }
@@ -377,17 +377,17 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
 
   // Quantities derived from a constant friction angle.
   struct OfAngle {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): of the copy by clang
-    Vector<Real, 3> normal[planes];
-    Matrix<Real, 3> inverse_coupling[set_count];
+    Vector<double, 3> normal[planes];
+    Matrix<double, 3> inverse_coupling[set_count];
   };
   struct Nothing {};
 
-  Real sine_ = 0, residual_sine_ = 0;   // of phi_0 and phi_f
-  Real ratio_ = 1, root_of_ratio_ = 1;  // of phi_0: k, sqrt(k)
-  Real cohesion_ = 0, residual_cohesion_ = 0, tension_cutoff_ = 0;
-  Real softening_rate_ = 1;  // 1/eps_c
+  double sine_ = 0, residual_sine_ = 0;   // of phi_0 and phi_f
+  double ratio_ = 1, root_of_ratio_ = 1;  // of phi_0: k, sqrt(k)
+  double cohesion_ = 0, residual_cohesion_ = 0, tension_cutoff_ = 0;
+  double softening_rate_ = 1;  // 1/eps_c
   Elastic elastic_;
-  Vector<Real, 3> relaxation_[planes];  // elastic stress of a plane's flow [Pa per unit multiplier]
+  Vector<double, 3> relaxation_[planes];  // elastic stress of a plane's flow [Pa per unit multiplier]
   std::conditional_t<friction_falls, Nothing, OfAngle> of_angle_;
 };
 

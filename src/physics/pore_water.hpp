@@ -21,7 +21,7 @@ namespace thawslide::physics {
 // Volumetric expansion of water beta_L [1/K].
 struct WaterExpansion {
   WaterExpansionLaw law = WaterExpansionLaw::constant;
-  Real constant = 0;  // [1/K]
+  double constant = 0;  // [1/K]
 
   // beta_L at a temperature [C].
   template <class Value>
@@ -48,30 +48,27 @@ struct WaterExpansion {
 
  private:
   struct Point {
-    Real temperature, expansion;  // [C], [1/K]
+    double temperature, expansion;  // [C], [1/K]
   };
   template <int Number>
   THAWSLIDE_HD static constexpr Point point() {
-    constexpr Point points[4] = {{Real(0), static_cast<Real>(-0.7e-4)},
-                                 {Real(20), static_cast<Real>(2.1e-4)},
-                                 {Real(50), static_cast<Real>(4.6e-4)},
-                                 {Real(100), static_cast<Real>(7.5e-4)}};
+    constexpr Point points[4] = {{0.0, -0.7e-4}, {20.0, 2.1e-4}, {50.0, 4.6e-4}, {100.0, 7.5e-4}};
     return points[Number];
   }
   template <int Line>
-  THAWSLIDE_HD static constexpr Real lower_end() {
+  THAWSLIDE_HD static constexpr double lower_end() {
     return point<Line>().temperature;
   }
   // Line through two adjacent points.
   template <int Line, class Value>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Value on_line(Value temperature) {
     constexpr Point low = point<Line>(), high = point<Line + 1>();
-    constexpr Real slope = (high.expansion - low.expansion) / (high.temperature - low.temperature);
+    constexpr double slope = (high.expansion - low.expansion) / (high.temperature - low.temperature);
     return low.expansion + slope * (temperature - low.temperature);
   }
   template <int Line, class Value>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Value under_line(Value from, Value to) {
-    return (to - from) * on_line<Line>(static_cast<Real>(0.5) * (from + to));
+    return (to - from) * on_line<Line>(0.5 * (from + to));
   }
 };
 
@@ -80,28 +77,28 @@ struct WaterExpansion {
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melted_swelling(const Phases& phases, const WaterExpansion& water,
                                                            Value porosity, Value from, Value to) {
-  return (Real(1) - porosity) * phases.rock_expansion * (to - from) + porosity * water.swelling(from, to);
+  return (1.0 - porosity) * phases.rock_expansion * (to - from) + porosity * water.swelling(from, to);
 }
 
 // n/K_L + m_v [1/Pa]: volume of water stored per rise of pressure and volume of mixture. skeleton_compressibility: m_v
 // [1/Pa]; 0: rigid pore.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_storage(const Phases& phases, Value porosity,
-                                                        Real skeleton_compressibility) {
+                                                        double skeleton_compressibility) {
   return porosity / phases.water_bulk_modulus + skeleton_compressibility;
 }
 
 // n + K_L m_v [1]: porosity of a rigid pore with the same storage; replaces n in the denominators of Eqs. 8 and 23.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value storing_porosity(const Phases& phases, Value porosity,
-                                                            Real skeleton_compressibility) {
+                                                            double skeleton_compressibility) {
   return porosity + phases.water_bulk_modulus * skeleton_compressibility;
 }
 
 // n (1 - r) dS: void left by melting, per volume of mixture [1]. melted: dS, fraction of the pore.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_void(const Phases& phases, Value porosity, Value melted) {
-  return porosity * (Real(1) - phases.ice_density / phases.water_density) * melted;
+  return porosity * (1.0 - phases.ice_density / phases.water_density) * melted;
 }
 
 // P limited to 0 <= P <= N [Pa]; a negative load counts as 0.

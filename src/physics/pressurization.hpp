@@ -20,8 +20,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_pressure_coefficient(const 
 // r, which is 1 once melted).
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases& phases, Value porosity, Value saturation) {
-  const Real ratio = phases.ice_density / phases.water_density;
-  return phases.water_bulk_modulus * (saturation + (Real(1) - saturation) * ratio) / (porosity * saturation);
+  const double ratio = phases.ice_density / phases.water_density;
+  return phases.water_bulk_modulus * (saturation + (1.0 - saturation) * ratio) / (porosity * saturation);
 }
 
 // Divisor of the pore space when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or 1, as in Eq. 23 as
@@ -44,8 +44,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases& p
 // inverse_mesh_size: 1/h [1/m].
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value subgrid_diffusion_fraction(Value diffusivity, Value inverse_mesh_size,
-                                                                      int dimension, Real dt) {
-  return -exponential_minus_one((-dt * Real(2 * dimension)) * (inverse_mesh_size * inverse_mesh_size) * diffusivity);
+                                                                      int dimension, double dt) {
+  return -exponential_minus_one((-dt * double(2 * dimension)) * (inverse_mesh_size * inverse_mesh_size) * diffusivity);
 }
 
 }  // namespace thawslide::physics

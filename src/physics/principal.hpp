@@ -48,14 +48,14 @@ struct PlaneAxis {
 
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PlaneAxis(Value xx, Value yy, Value xy) {
     using std::abs, std::sqrt;
-    const Value half_difference = Real(0.5) * (xx - yy);
+    const Value half_difference = 0.5 * (xx - yy);
     radius = sqrt(half_difference * half_difference + xy * xy);
     const auto distinct = radius > Value(0);
     const Value divisor = select(distinct, radius, Value(1));
     // The larger of the two half-angle forms is free of cancellation.
     const Value cosine2 = select(distinct, half_difference / divisor, Value(1));
-    const Value larger = sqrt(Real(0.5) * (Real(1) + abs(cosine2)));
-    const Value smaller = Real(0.5) * xy / (divisor * larger);
+    const Value larger = sqrt(0.5 * (1.0 + abs(cosine2)));
+    const Value smaller = 0.5 * xy / (divisor * larger);
     const auto flipped = cosine2 < Value(0);
     cosine = select(flipped, abs(smaller), larger);
     sine = select(flipped, select(xy < Value(0), -larger, larger), smaller);
@@ -68,10 +68,10 @@ template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
   using std::abs;
   const Value size = abs(h);
-  const Real root_of_3 = static_cast<Real>(1.7320508075688772935);
-  Value x = root_of_3 + size * (Real(1) / Real(3) - size * (root_of_3 + Real(1) / Real(3) - Real(2)));
+  const double root_of_3 = 1.7320508075688772935;
+  Value x = root_of_3 + size * (1.0 / 3.0 - size * (root_of_3 + 1.0 / 3.0 - 2.0));
   for (int k = 0; k < 3; ++k) {
-    x -= (x * (x * x - Real(3)) - Real(2) * size) / (Real(3) * (x * x - Real(1)));
+    x -= (x * (x * x - 3.0) - 2.0 * size) / (3.0 * (x * x - 1.0));
   }
   return select(h < Value(0), -x, x);
 }
@@ -80,10 +80,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix<Value, 3>& deviator) {
   using std::sqrt;
-  const Value size = sqrt(deviator.squaredNorm() / Real(6));
-  const Value inverse = Real(1) / select(size > Value(0), size, Value(1));
+  const Value size = sqrt(deviator.squaredNorm() / 6.0);
+  const Value inverse = 1.0 / select(size > Value(0), size, Value(1));
   const Matrix<Value, 3> scaled = inverse * deviator;
-  const Value value = isolated_root(Value(max(min(Real(0.5) * scaled.determinant(), Value(1)), Value(-1))));
+  const Value value = isolated_root(Value(max(min(0.5 * scaled.determinant(), Value(1)), Value(-1))));
   // The rows (or columns) of scaled - value I span the plane normal to the axis. The pair with the largest cross
   // product is used.
   const Matrix<Value, 3> rows = scaled - value * Matrix<Value, 3>::Identity();
@@ -122,11 +122,11 @@ THAWSLIDE_HD Principal<Value> principal(const SymmetricTensor<Value>& tensor) {
   Principal<Value> result;
   if constexpr (Dim == 2) {
     const detail::PlaneAxis<Value> plane(tensor[0], tensor[1], tensor[3]);
-    const Value centre = Real(0.5) * (tensor[0] + tensor[1]), zero = 0;
+    const Value centre = 0.5 * (tensor[0] + tensor[1]), zero = 0;
     result.values << centre + plane.radius, centre - plane.radius, tensor[2];
     result.axes << plane.cosine, -plane.sine, zero, plane.sine, plane.cosine, zero, zero, zero, Value(1);
   } else {
-    const Value mean = (tensor[0] + tensor[1] + tensor[2]) / Real(3);
+    const Value mean = (tensor[0] + tensor[1] + tensor[2]) / 3.0;
     Matrix<Value, 3> full;
     full << tensor[0] - mean, tensor[3], tensor[5], tensor[3], tensor[1] - mean, tensor[4], tensor[5], tensor[4],
         tensor[2] - mean;
@@ -136,7 +136,7 @@ THAWSLIDE_HD Principal<Value> principal(const SymmetricTensor<Value>& tensor) {
     const Value xx = first.dot(full * first);
     const Value yy = second.dot(full * second);
     const detail::PlaneAxis<Value> plane(xx, yy, first.dot(full * second));
-    const Value centre = mean + Real(0.5) * (xx + yy);
+    const Value centre = mean + 0.5 * (xx + yy);
     result.values << centre + plane.radius, centre - plane.radius, mean + isolated.dot(full * isolated);
     result.axes << plane.cosine * first + plane.sine * second, plane.cosine * second - plane.sine * first, isolated;
   }

@@ -68,26 +68,26 @@ template <int Dim, class Value>
 // Sums over mass points.
 template <int Dim>
 struct MassPoints {
-  Real mass;                            // [kg]
-  Vector<Real, Dim> first;              // sum m x [kg m]
-  Vector<Real, squares<Dim>> second;    // sum m x x [kg m2]
-  Vector<Real, Dim> momentum;           // sum m v [kg m/s]
-  Vector<Real, rotations<Dim>> moment;  // sum m x x v [kg m2/s]
+  double mass;                            // [kg]
+  Vector<double, Dim> first;              // sum m x [kg m]
+  Vector<double, squares<Dim>> second;    // sum m x x [kg m2]
+  Vector<double, Dim> momentum;           // sum m v [kg m/s]
+  Vector<double, rotations<Dim>> moment;  // sum m x x v [kg m2/s]
 };
 
 template <int Dim>
 struct RigidMotion {
-  Vector<Real, Dim> at_origin = Vector<Real, Dim>::Zero();                       // v(0) [m/s]
-  Vector<Real, rotations<Dim>> rotation = Vector<Real, rotations<Dim>>::Zero();  // w [1/s]
+  Vector<double, Dim> at_origin = Vector<double, Dim>::Zero();                       // v(0) [m/s]
+  Vector<double, rotations<Dim>> rotation = Vector<double, rotations<Dim>>::Zero();  // w [1/s]
 };
 
 // Rotation around an axis is ignored if the moment of inertia is at most mass times least_square [m2], for points too
 // close to the axis.
 template <int Dim>
-[[nodiscard]] THAWSLIDE_HD RigidMotion<Dim> nearest_rigid_motion(const MassPoints<Dim>& points, Real least_square) {
-  const Vector<Real, Dim> centre = points.first / points.mass, velocity = points.momentum / points.mass;
-  const Vector<Real, rotations<Dim>> spin = points.moment - moment_of<Dim>(centre, points.momentum);
-  const Vector<Real, squares<Dim>> about_centre = points.second - points.mass * squares_of<Dim>(centre);
+[[nodiscard]] THAWSLIDE_HD RigidMotion<Dim> nearest_rigid_motion(const MassPoints<Dim>& points, double least_square) {
+  const Vector<double, Dim> centre = points.first / points.mass, velocity = points.momentum / points.mass;
+  const Vector<double, rotations<Dim>> spin = points.moment - moment_of<Dim>(centre, points.momentum);
+  const Vector<double, squares<Dim>> about_centre = points.second - points.mass * squares_of<Dim>(centre);
   RigidMotion<Dim> motion;
   if constexpr (Dim == 2) {
     if (about_centre[0] > points.mass * least_square) {
@@ -95,12 +95,12 @@ template <int Dim>
     }
   } else {
     const auto& s = about_centre;
-    SymmetricTensor<Real> inertia;
+    SymmetricTensor<double> inertia;
     inertia << s[1] + s[2], s[0] + s[2], s[0] + s[1], -s[3], -s[4], -s[5];
-    const Principal<Real> about = principal(inertia);
+    const Principal<double> about = principal(inertia);
     for (int k = 0; k < 3; ++k) {
       if (about.values[k] > points.mass * least_square) {
-        const Vector<Real, 3> axis = about.axes.col(k);
+        const Vector<double, 3> axis = about.axes.col(k);
         motion.rotation += axis.dot(spin) / about.values[k] * axis;
       }
     }

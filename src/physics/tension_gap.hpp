@@ -40,12 +40,11 @@ template <class Strength>
 [[nodiscard]] bool gap_is_free(const Strength& strength) {
   constexpr int fractions = 100;
   constexpr double round_off = 1e-12;
-  const auto sine = [](auto degrees) { return std::sin(static_cast<double>(degrees) * pi / 180.0); };
+  const auto sine = [](auto degrees) { return std::sin(degrees * pi / 180.0); };
   const auto between = [](double start, double end, double fraction) { return start + fraction * (end - start); };
   const auto apex = [&](double softened) {
     const double s = between(sine(strength.friction_angle), sine(strength.residual_friction_angle), softened);
-    return between(static_cast<double>(strength.cohesion), static_cast<double>(strength.residual_cohesion), softened) *
-           std::sqrt(1.0 - s * s) / s;
+    return between(strength.cohesion, strength.residual_cohesion, softened) * std::sqrt(1.0 - s * s) / s;
   };
   bool moves_out = false;
   for (int k = 1; k <= fractions; ++k) {
@@ -58,7 +57,7 @@ template <class Strength>
 
 // Density after closing the gap, at which elastic stiffness acts again [kg/m3]. A gap sums the volumetric strains of
 // steps, each of which is the change of the logarithm of the volume.
-[[nodiscard]] inline THAWSLIDE_HD Real density_with_gap_closed(Real density, Real gap) {
+[[nodiscard]] inline THAWSLIDE_HD double density_with_gap_closed(double density, double gap) {
   using std::exp;
   return density * exp(gap);
 }

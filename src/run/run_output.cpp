@@ -21,7 +21,7 @@ namespace {
 // Places that define the ground of a profile: the columns of nodes, and the two sides of the domain.
 template <int Dim>
 std::vector<double> stations_of(const sim::Model<Dim>& model, double cell) {
-  const double extent = static_cast<double>(model.constraints.extent[0]);
+  const double extent = model.constraints.extent[0];
   std::vector<double> x;
   for (long k = 0; k < std::lround(extent / cell); ++k) {
     x.push_back(static_cast<double>(k) * cell);
@@ -75,7 +75,7 @@ void complete(io::Provenance& provenance, const sim::Simulation<Dim>& simulation
   }
   for (int a = 0; a < Dim; ++a) {
     provenance.origin.push_back(model.origin[a]);
-    provenance.gravity.push_back(static_cast<double>(model.motion.gravity[a]));
+    provenance.gravity.push_back(model.motion.gravity[a]);
   }
 }
 

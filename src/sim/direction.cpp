@@ -198,21 +198,19 @@ std::vector<BodyAtStart> bodies_at_start(const Model<Dim>& model, const mpm::Par
   std::vector<Departure> departures(bodies.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const auto number = static_cast<std::size_t>(particles.body(p));
-    const auto mass = static_cast<double>(particles.mass(p)), speed = static_cast<double>(particles.velocity(p, 0));
-    const auto x = static_cast<double>(particles.position(p, 0)),
-               half = static_cast<double>(model.motion.sizes.half(number)) * cell;
+    const auto mass = particles.mass(p), speed = particles.velocity(p, 0);
+    const auto x = particles.position(p, 0), half = model.motion.sizes.half(number) * cell;
     BodyAtStart& body = bodies[number];
     body.mass += mass;
     body.lower = std::min(body.lower, x - half + model.origin[0]);
     body.upper = std::max(body.upper, x + half + model.origin[0]);
     typename terrain::Surface<Dim>::Point point;
     for (int a = 0; a + 1 < Dim; ++a) {
-      point[a] = static_cast<double>(particles.position(p, a));
+      point[a] = particles.position(p, a);
     }
     departures[number].add_momentum(mass, speed, std::abs(speed));
     departures[number].add_force(mass, model.ground ? model.ground->gradient(point, cell)[0] : 0.0,
-                                 static_cast<double>(model.motion.gravity[0]),
-                                 -static_cast<double>(model.motion.gravity[Dim - 1]));
+                                 model.motion.gravity[0], -model.motion.gravity[Dim - 1]);
   }
   for (std::size_t number = 0; number < bodies.size() && Dim == 2; ++number) {
     BodyAtStart& body = bodies[number];

@@ -86,7 +86,7 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
     const std::size_t p = slide_->index_of(limit.particle);
     const mpm::Particles<Dim>& particles = slide_->particles;
     where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", failure_text().name_of(p),
-                        static_cast<double>(particles.volume(p) / particles.initial_volume(p)));
+                        particles.volume(p) / particles.initial_volume(p));
   }
   fail(fmt::format("the next step would be {:.3g} s, {}. It is set by {}{}. {}", dt, why, limit.what, where,
                    advice_on(limit.kind, guards.volume == config::Policy::remove)));

@@ -18,7 +18,7 @@ std::vector<double> Simulation<Dim>::scalars() const {
                               clock_.fixed.from_time,
                               static_cast<double>(clock_.fixed.from_number)};
   Budget<Dim> budget = budget_;
-  budget.for_each([&](const Real& term) { numbers.push_back(static_cast<double>(term)); });
+  budget.for_each([&](const double& term) { numbers.push_back(term); });
   RunMonitor monitor = monitor_;
   monitor.for_each([&](double number) { numbers.push_back(number); });
   for (BodyAtStart body : bodies_at_start_) {
@@ -42,7 +42,7 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   clock_.fixed.step = state.next_finite();
   clock_.fixed.from_time = state.next_finite();
   clock_.fixed.from_number = state.whole(clock_.step_number);
-  budget_.for_each([&](Real& term) { term = static_cast<Real>(state.next()); });
+  budget_.for_each([&](double& term) { term = state.next(); });
   monitor_.for_each([&](double& number) { number = state.next(); });
   bodies_at_start_.resize(setup_.model.body_names.size());
   for (BodyAtStart& body : bodies_at_start_) {

@@ -31,7 +31,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   setup_.model.contact.base_is_fixed = true;
   setup_.model.contact.band_columns = false;
   base_.columns.reset();
-  setup_.model.contact.mass_damping = static_cast<Real>(setup_.parameters.mechanics.settle_damping);
+  setup_.model.contact.mass_damping = setup_.parameters.mechanics.settle_damping;
   // No particle may leave.
   const config::Policy leaving = std::exchange(setup_.parameters.grid.leaving, config::Policy::stop);
   const config::Guards guards = setup_.parameters.guards;
@@ -51,7 +51,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   setup_.parameters.guards = guards;
   solver().release();
   // Assigns the settled stress to the particles as seeded, so nothing else of the settling remains.
-  std::vector<SymmetricTensor<Real>> settled(slide_->particles.size());
+  std::vector<SymmetricTensor<double>> settled(slide_->particles.size());
   for (std::size_t p = 0; p < slide_->particles.size(); ++p) {
     settled[static_cast<std::size_t>(slide_->particles.id(p))] = mpm::full_tensor<Dim>(slide_->particles.stress, p);
   }

@@ -67,8 +67,8 @@ void Simulation<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
   if (clock_.step_number == 0) {
     start_monitor();  // again, because the caller may have changed the state
   }
-  sums_ = solver().step(static_cast<Real>(dt), strength);
-  add_step(sums_, setup_, base_.bed_in_reach(setup_.model) != nullptr, static_cast<Real>(dt), budget_);
+  sums_ = solver().step(dt, strength);
+  add_step(sums_, setup_, base_.bed_in_reach(setup_.model) != nullptr, dt, budget_);
   invalid_ += sums_.deformed.invalid;
   invalid_ += sums_.invalid;
   clock_.advance(dt, setup_.parameters.time);
@@ -140,8 +140,8 @@ void Simulation<Dim>::remove(const Marks& marks) {
   }
   add_removed(setup_, *slide_, marks, budget_before_, sums_of_particle(), budget_);
   removed_ += now;
-  const auto all_mass = static_cast<double>(budget_.initial_mass + budget_.joined_mass);
-  const double fraction = static_cast<double>(budget_.removed_mass) / all_mass;
+  const auto all_mass = budget_.initial_mass + budget_.joined_mass;
+  const double fraction = budget_.removed_mass / all_mass;
   const double allowed = setup_.parameters.guards.removed_mass;
   if (none_stays || fraction > allowed) {
     invalid_ = first_invalid(setup_.parameters.guards, slide_->particles, marks);
@@ -270,12 +270,12 @@ template <int Dim>
 band::SumsOfParticle<Dim> Simulation<Dim>::sums_of_particle() const {
   const Model<Dim>& model = setup_.model;
   return {model.motion.gravity,
-          model.origin.template cast<Real>(),
+          model.origin,
           model.motion.phases,
           setup_.parameters.heat.latent,
           model.band.current_masses,
           model.band.melt_contracts,
-          static_cast<Real>(setup_.parameters.time.moved_distance)};
+          setup_.parameters.time.moved_distance};
 }
 
 template <int Dim>
@@ -286,8 +286,7 @@ MovedMass Simulation<Dim>::moved_mass() const {
   for (std::size_t body = 0; body < bodies_at_start_.size(); ++body) {
     of_moved_bodies -= sums.moved_bodies.contains(body) ? 0.0 : bodies_at_start_[body].mass;
   }
-  if (static_cast<double>(sums.moved_mass) > mpm::fraction_ahead_of_front * of_moved_bodies &&
-      sums.moved_mass > Real(0)) {
+  if (sums.moved_mass > mpm::fraction_ahead_of_front * of_moved_bodies && sums.moved_mass > 0.0) {
     return {false, of_moved_bodies, sums.moved_bodies, true};
   }
   MovedMass released{false, all, {}};

@@ -8,15 +8,15 @@
 namespace thawslide::terrain {
 
 template <int Dim>
-void mark_band_and_slip(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, Real dt,
+void mark_band_and_slip(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, double dt,
                         mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles) {
   mpm::for_particles_in_memory(particles, LeaveBand<Dim>{});
   mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, SeesCandidates<Dim>{ground}, MarkBand<Dim>{dt});
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                     \
-  template void mark_band_and_slip<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&, Real, mpm::Nodes<Dim>&, \
-                                        mpm::Particles<Dim>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                     \
+  template void mark_band_and_slip<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&, double, \
+                                        mpm::Nodes<Dim>&, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

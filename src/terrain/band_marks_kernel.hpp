@@ -17,7 +17,7 @@ struct LeaveBand {
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
                                                        Scatter& /*added*/, Totals& /*totals*/) const {
-    particles.in_band.store_whole(at, typename At::Value(Real(0)));
+    particles.in_band.store_whole(at, typename At::Value(0.0));
   }
 };
 
@@ -29,7 +29,7 @@ struct MarkBand {
   using Adds = mpm::RecordList<>;
   using Totals = mpm::NoTotals;
 
-  Real dt;
+  double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
@@ -37,7 +37,7 @@ struct MarkBand {
     using mpm::Contact;
     using Value = typename At::Value;
     const auto contact = seen.template read<Contact, 3>().value;
-    const Value zero = Real(0), one = Real(1);
+    const Value zero = 0.0, one = 1.0;
     particles.in_band.store_whole(at, select(contact[Contact::candidate] > zero, one, zero));
     const auto touches = contact[Contact::touching] > zero;
     if (any(touches)) {

@@ -24,8 +24,8 @@ struct BasalLaw {
   std::vector<GroundLaw> grounds{1};
   physics::FrictionClamp clamp = physics::FrictionClamp::keep_cohesion;
   bool cap_pressure = false;  // P at most N
-  Real heat_fraction = 1;     // fraction of the friction work converted to heat (conversion coefficient)
-  Real gravity = 0;           // [m/s2]
+  double heat_fraction = 1;   // fraction of the friction work converted to heat (conversion coefficient)
+  double gravity = 0;         // [m/s2]
 
   // True if a law depends on temperature, saturation, solid fraction or slip of the mass.
   [[nodiscard]] bool depends_on_mass() const {
@@ -47,12 +47,12 @@ struct BasalNodes {
   // effective solid fraction n_e (Eq. 2), slip [m], slip speed v [m/s] and unit weight rho g of the sliding mass
   // [N/m3].
   Column<int> substrate;
-  Column<Real> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
+  Column<double> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
   // Output: friction coefficient mu_e, pore pressure that reduces friction, drag, cohesion c_S and sliding strength
   // [Pa].
-  Column<Real> friction, relief, drag, cohesion, strength;
+  Column<double> friction, relief, drag, cohesion, strength;
 
-  [[nodiscard]] physics::basal::ContactNode node(std::size_t k, Real time) const {
+  [[nodiscard]] physics::basal::ContactNode node(std::size_t k, double time) const {
     return {normal_pressure[k], pore_pressure[k], temperature[k], saturation[k],
             solid_fraction[k],  slip[k],          speed[k],       time,
             unit_weight[k]};
@@ -61,7 +61,7 @@ struct BasalNodes {
 
 // Computes friction, relief, drag and cohesion of the nodes on one substrate. The laws are dispatched once, outside the
 // loop over nodes.
-inline void evaluate_ground_law(const GroundLaw& law, int substrate, Real time, BasalNodes& nodes) {
+inline void evaluate_ground_law(const GroundLaw& law, int substrate, double time, BasalNodes& nodes) {
   std::visit(
       [&]<class Friction>(const Friction& friction) {
         for (std::size_t k = 0; k < nodes.count; ++k) {
@@ -69,7 +69,7 @@ inline void evaluate_ground_law(const GroundLaw& law, int substrate, Real time, 
             const auto node = nodes.node(k, time);
             nodes.friction[k] = friction.coefficient(node);
             nodes.drag[k] = physics::basal::drag_of(friction, node);
-            nodes.relief[k] = Friction::depends_on_pore_pressure ? nodes.pore_pressure[k] : Real(0);
+            nodes.relief[k] = Friction::depends_on_pore_pressure ? nodes.pore_pressure[k] : 0.0;
           }
         }
       },
@@ -86,7 +86,7 @@ inline void evaluate_ground_law(const GroundLaw& law, int substrate, Real time, 
 }
 
 // Computes friction, cohesion and strength of all nodes. time [s].
-inline void evaluate_basal_law(const BasalLaw& law, Real time, BasalNodes& nodes) {
+inline void evaluate_basal_law(const BasalLaw& law, double time, BasalNodes& nodes) {
   const auto end = nodes.substrate.begin() + static_cast<std::ptrdiff_t>(nodes.count);
   for (std::size_t number = 0; number < law.grounds.size(); ++number) {
     const int substrate = static_cast<int>(number);

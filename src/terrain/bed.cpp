@@ -66,7 +66,7 @@ void Bed<Dim>::cover(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
     }
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      const Real half = sizes.half(static_cast<std::size_t>(particles.body(p)));
+      const double half = sizes.half(static_cast<std::size_t>(particles.body(p)));
       Column first{}, last{};
       for (std::size_t a = 0; a < first.size(); ++a) {
         const PartsCovered along = parts_covered(particles.position(p, static_cast<int>(a)), half, grid.cell());
@@ -98,7 +98,7 @@ void Bed<Dim>::distribute(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nod
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
       nodes.bed.of_block(b)[k] = {};
-      if (nodes.base(b, k)[BaseLayout::load] > Real(0)) {
+      if (nodes.base(b, k)[BaseLayout::load] > 0.0) {
         points.push_back({b, k});
         pressing.push_back({number_of(column_of(grid, b, k)), nodes.base(b, k)[BaseLayout::load]});
       }
@@ -113,9 +113,9 @@ void Bed<Dim>::distribute(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nod
 template <int Dim>
 void Bed<Dim>::distribute(std::vector<Pressing>& nodes) const {
   const auto has_bed = [&](const Pressing& node) {
-    return node.load > Real(0) && node.column != outside && left_[node.column] > Real(0);
+    return node.load > 0.0 && node.column != outside && left_[node.column] > 0.0;
   };
-  std::map<std::size_t, Real> load;  // by column with remaining bed [kg m/s]
+  std::map<std::size_t, double> load;  // by column with remaining bed [kg m/s]
   for (const Pressing& node : nodes) {
     if (has_bed(node)) {
       load[node.column] += node.load;
@@ -123,22 +123,22 @@ void Bed<Dim>::distribute(std::vector<Pressing>& nodes) const {
   }
   constexpr int all_parts = Dim == 2 ? bed_parts : bed_parts * bed_parts;
   for (Pressing& node : nodes) {
-    node.available = Real(0);
+    node.available = 0.0;
     if (has_bed(node)) {
       const int bare_parts = all_parts - std::popcount(covered_[node.column]);
-      const Real bare = initial_[node.column] * static_cast<Real>(bare_parts) / Real(all_parts);
-      node.available = node.load / load[node.column] * std::max(left_[node.column] - bare, Real(0));
+      const double bare = initial_[node.column] * static_cast<double>(bare_parts) / double(all_parts);
+      node.available = node.load / load[node.column] * std::max(left_[node.column] - bare, 0.0);
     }
   }
 }
 
 template <int Dim>
-void Bed<Dim>::collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, Real dt) {
+void Bed<Dim>::collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, double dt) {
   age(dt);
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.bed.contains(b) && k < nodes.bed.nodes; ++k) {
       const auto& contact = nodes.contact(b, k);
-      if (nodes.bed(b, k)[Layout::entrained] > Real(0)) {
+      if (nodes.bed(b, k)[Layout::entrained] > 0.0) {
         collect(number_of(column_of(grid, b, k)), nodes.bed(b, k).data(),
                 contact[mpm::Contact::normal_force] / contact[mpm::Contact::area]);
       }
@@ -147,22 +147,22 @@ void Bed<Dim>::collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 }
 
 template <int Dim>
-void Bed<Dim>::age(Real dt) {
+void Bed<Dim>::age(double dt) {
   for (auto& [column, material] : loose_) {
     material.idle += dt;
   }
 }
 
 template <int Dim>
-void Bed<Dim>::collect(std::size_t column, const Real* record, Real normal_pressure) {
-  const Real entrained = record[Layout::entrained];
+void Bed<Dim>::collect(std::size_t column, const double* record, double normal_pressure) {
+  const double entrained = record[Layout::entrained];
   LooseMaterial<Dim>& material = loose_[column];
-  left_[column] = std::max(left_[column] - entrained, Real(0));  // the shares sum to it up to round-off
+  left_[column] = std::max(left_[column] - entrained, 0.0);  // the shares sum to it up to round-off
   material.mass += entrained;
   material.momentum += mpm::vector_at<Dim>(record, Layout::impulse);
   material.work += record[Layout::work];
   material.normal_pressure = normal_pressure;
-  material.idle = Real(0);
+  material.idle = 0.0;
 }
 
 template <int Dim>
@@ -193,18 +193,17 @@ std::vector<double> Bed<Dim>::state() const {
   std::vector<double> numbers{0.0};
   for (std::size_t c = 0; c < left_.size(); ++c) {
     if (left_[c] != initial_[c] || covered_[c] != 0) {
-      numbers.insert(numbers.end(),
-                     {static_cast<double>(c), static_cast<double>(left_[c]), static_cast<double>(covered_[c])});
+      numbers.insert(numbers.end(), {static_cast<double>(c), left_[c], static_cast<double>(covered_[c])});
       ++numbers[0];
     }
   }
   for (const auto& [column, material] : loose_) {
     numbers.push_back(static_cast<double>(column));
-    for (const Real number : {material.mass, material.work, material.normal_pressure, material.idle}) {
-      numbers.push_back(static_cast<double>(number));
+    for (const double number : {material.mass, material.work, material.normal_pressure, material.idle}) {
+      numbers.push_back(number);
     }
     for (int a = 0; a < Dim; ++a) {
-      numbers.push_back(static_cast<double>(material.momentum[a]));
+      numbers.push_back(material.momentum[a]);
     }
   }
   return numbers;
@@ -216,7 +215,7 @@ void Bed<Dim>::restore(const std::vector<double>& numbers) {
   covered_.assign(covered_.size(), 0);
   loose_.clear();
   StateNumbers state(numbers, "bed");
-  const auto next = [&] { return static_cast<Real>(state.next_finite()); };
+  const auto next = [&] { return state.next_finite(); };
   const auto next_column = [&] {
     return static_cast<std::size_t>(state.whole(static_cast<std::int64_t>(left_.size()) - 1));
   };
@@ -229,7 +228,7 @@ void Bed<Dim>::restore(const std::vector<double>& numbers) {
   }
   while (state.left() > 0) {
     LooseMaterial<Dim>& material = loose_[next_column()];
-    for (Real* number : {&material.mass, &material.work, &material.normal_pressure, &material.idle}) {
+    for (double* number : {&material.mass, &material.work, &material.normal_pressure, &material.idle}) {
       *number = next();
     }
     for (int a = 0; a < Dim; ++a) {

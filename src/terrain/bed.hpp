@@ -20,11 +20,11 @@ class GroundOnGrid;
 // Entrained bed material that has not yet joined the sliding mass as a particle.
 template <int Dim>
 struct LooseMaterial {
-  Real mass = 0;                                           // [kg]
-  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();  // [kg m/s]
-  Real work = 0;                                           // work done on it by the sliding mass [J]
-  Real normal_pressure = 0;                                // on the bed at the last entrainment [Pa]
-  Real idle = 0;                                           // time since then [s]
+  double mass = 0;                                             // [kg]
+  Vector<double, Dim> momentum = Vector<double, Dim>::Zero();  // [kg m/s]
+  double work = 0;                                             // work done on it by the sliding mass [J]
+  double normal_pressure = 0;                                  // on the bed at the last entrainment [Pa]
+  double idle = 0;                                             // time since then [s]
 };
 
 template <int Dim>
@@ -35,7 +35,7 @@ class Bed {
 
   // columns: number along each axis, the first at the domain's lower corner. mass: of the bed below each column [kg], x
   // fastest.
-  Bed(const BedMaterial& material, const Column& columns, std::vector<Real> mass)
+  Bed(const BedMaterial& material, const Column& columns, std::vector<double> mass)
       : material_(material),
         columns_(columns),
         initial_(std::move(mass)),
@@ -58,28 +58,28 @@ class Bed {
   // The same for a list of nodes of any columns.
   struct Pressing {
     std::size_t column = outside;
-    Real load = 0;       // as in BaseLayout
-    Real available = 0;  // of the bed [kg]
+    double load = 0;       // as in BaseLayout
+    double available = 0;  // of the bed [kg]
   };
   void distribute(std::vector<Pressing>& nodes) const;
 
   // Transfers the mass entrained by nodes in a step of dt from the bed to the loose material.
-  void collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, Real dt);
+  void collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, double dt);
   // The same node by node, after age(dt). record: of BedLayout.
-  void age(Real dt);
-  void collect(std::size_t column, const Real* record, Real normal_pressure);
+  void age(double dt);
+  void collect(std::size_t column, const double* record, double normal_pressure);
 
   // Passes loose material to join(column, material) and removes it if the result is true.
   void release(const std::function<bool(const Column&, const LooseMaterial<Dim>&)>& join);
 
   [[nodiscard]] const BedMaterial& material() const { return material_; }
-  [[nodiscard]] bool is_exhausted(const Column& column) const { return !(left_[number_of(column)] > Real(0)); }
-  [[nodiscard]] const std::vector<Real>& left() const { return left_; }  // [kg], by column
+  [[nodiscard]] bool is_exhausted(const Column& column) const { return !(left_[number_of(column)] > 0.0); }
+  [[nodiscard]] const std::vector<double>& left() const { return left_; }  // [kg], by column
   [[nodiscard]] const Column& columns() const { return columns_; }
 
   // Sums over all columns [kg, J].
   struct Sums {
-    Real initial = 0, left = 0, loose = 0, loose_work = 0;
+    double initial = 0, left = 0, loose = 0, loose_work = 0;
   };
   [[nodiscard]] Sums sums() const;
 
@@ -94,7 +94,7 @@ class Bed {
 
   BedMaterial material_;
   Column columns_;
-  std::vector<Real> initial_, left_;                 // [kg], by column
+  std::vector<double> initial_, left_;               // [kg], by column
   std::vector<std::uint16_t> covered_;               // by column: one bit per part
   std::map<std::size_t, LooseMaterial<Dim>> loose_;  // by column number
 };

@@ -17,9 +17,9 @@ using physics::BedLaw;
 
 struct BedMaterial {
   BedLaw law = BedLaw::momentum;
-  Real cohesion = 0, tangent = 0;  // of the bed strength: c_b [Pa], tan(phi_b)
-  Real depth_per_slip = 0;         // [1]
-  Real density = 0;                // [kg/m3]
+  double cohesion = 0, tangent = 0;  // of the bed strength: c_b [Pa], tan(phi_b)
+  double depth_per_slip = 0;         // [1]
+  double density = 0;                // [kg/m3]
 };
 
 // Parts of a column of nodes along each axis, covered individually.
@@ -30,28 +30,28 @@ inline constexpr int bed_parts = 4;
 struct PartsCovered {
   int first, last;
 };
-inline THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
+inline THAWSLIDE_HD PartsCovered parts_covered(double position, double half, double cell) {
   using std::ceil, std::floor;
-  const Real middle = (position / cell + Real(0.5)) * bed_parts - Real(0.5);
-  const Real reach = half * bed_parts;
+  const double middle = (position / cell + 0.5) * bed_parts - 0.5;
+  const double reach = half * bed_parts;
   return {static_cast<int>(ceil(middle - reach)), static_cast<int>(floor(middle + reach))};
 }
 
 // Entrainment by a node of a mass [kg] that slides at `speed` > 0 [m/s] after friction with the strength `shear` [Pa].
 // available: bed mass available to it [kg].
-inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& material, Real available, Real mass,
-                                                      Real speed, Real shear, Real normal_pressure, Real area,
-                                                      Real dt) {
-  const Real strength = physics::bed_strength(material.cohesion, material.tangent, normal_pressure);
-  const Real rate =
+inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& material, double available, double mass,
+                                                      double speed, double shear, double normal_pressure, double area,
+                                                      double dt) {
+  const double strength = physics::bed_strength(material.cohesion, material.tangent, normal_pressure);
+  const double rate =
       material.law == BedLaw::strength
           ? physics::erosion_by_strength(shear, strength, speed, material.depth_per_slip)
           : physics::erosion_by_momentum(shear, strength, material.density, speed, material.depth_per_slip);
-  const Real entrained = min(available, material.density * rate * area * dt);
+  const double entrained = min(available, material.density * rate * area * dt);
   if (material.law == BedLaw::momentum) {
     return {entrained, entrained * speed, entrained * speed};
   }
-  return {entrained, entrained * physics::speed_after_entrainment(mass, speed, entrained), Real(0)};
+  return {entrained, entrained * physics::speed_after_entrainment(mass, speed, entrained), 0.0};
 }
 
 // Entrainment by a sliding node. Fills its record of BedLayout; the momentum along the slip is that after friction.
@@ -59,17 +59,18 @@ inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& materia
 template <int Dim>
 struct BedBelowNode {
   const BedMaterial* material;
-  Real* record;
-  Real area, strength, dt, mass;
+  double* record;
+  double area, strength, dt, mass;
 
   template <int>
-  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse entrain(const physics::ContactImpulse& impulse, Real normal_pressure,
-                                                        const Vector<Real, Dim>& along, Real tangential_size) const {
+  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse entrain(const physics::ContactImpulse& impulse, double normal_pressure,
+                                                        const Vector<double, Dim>& along,
+                                                        double tangential_size) const {
     using Layout = mpm::BedLayout<Dim>;
-    if (material == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
+    if (material == nullptr || !impulse.slides || !(record[Layout::available] > 0.0)) {
       return {};
     }
-    const Real speed = (tangential_size - impulse.tangential) / mass;
+    const double speed = (tangential_size - impulse.tangential) / mass;
     const EntrainmentImpulse entrain =
         entrainment_of(*material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
     record[Layout::entrained] = entrain.entrained;
@@ -78,7 +79,7 @@ struct BedBelowNode {
     }
     return entrain;
   }
-  THAWSLIDE_HD void record_work(Real work) const { record[mpm::BedLayout<Dim>::work] = work; }
+  THAWSLIDE_HD void record_work(double work) const { record[mpm::BedLayout<Dim>::work] = work; }
 };
 
 }  // namespace thawslide::terrain

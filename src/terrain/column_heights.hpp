@@ -109,13 +109,13 @@ struct LocateAboveGround {
     const std::uint32_t p = at.particle[0];
     Vector<double, Dim - 1> point;
     for (int a = 0; a + 1 < Dim; ++a) {
-      point[a] = static_cast<double>(particles.position(p, a));
+      point[a] = particles.position(p, a);
     }
     const GroundBelow<Dim> ground = ground_below(point, sizes.of(particles, at), cell, columns, height);
-    particles.height_above_ground(p) = particles.position(p, Dim - 1) - static_cast<Real>(ground.height);
+    particles.height_above_ground(p) = particles.position(p, Dim - 1) - ground.height;
     for (int a = 0; a + 1 < Dim; ++a) {
-      particles.ground_slope(p, a) = static_cast<Real>(ground.slope[a]);
-      particles.linear_slope(p, a) = static_cast<Real>(ground.linear_slope[a]);
+      particles.ground_slope(p, a) = ground.slope[a];
+      particles.linear_slope(p, a) = ground.linear_slope[a];
     }
   }
 };

@@ -27,15 +27,15 @@ struct BlockContact {
 
   BasalNodes basal;
   Column<std::size_t> node;
-  Column<Real> area;
+  Column<double> area;
   Column<NodeState<Dim>> state;
 };
 
 template <int Dim>
-void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
+void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k, double pressure, double dt,
                       const ContactModel<Dim>& model, bool reads_mass, const GroundAtNode<Dim>& ground,
                       const NodeState<Dim>& state, BlockContact<Dim>& contact) {
-  const bool on_columns = model.band_columns && nodes.base_state(b, k)[mpm::BaseState::area] > Real(0);
+  const bool on_columns = model.band_columns && nodes.base_state(b, k)[mpm::BaseState::area] > 0.0;
   auto known = on_columns || !reads_mass
                    ? loaded_node<Dim>(pressure, ground.normal, state)
                    : contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
@@ -45,8 +45,8 @@ void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k
   }
   BasalNodes& basal = contact.basal;
   const std::size_t c = basal.count++;
-  const Real load = nodes.base(b, k)[BaseLayout::load];
-  const Real area = load / (pressure * dt);  // the basal area is divided among nodes in proportion to their loads
+  const double load = nodes.base(b, k)[BaseLayout::load];
+  const double area = load / (pressure * dt);  // the basal area is divided among nodes in proportion to their loads
   contact.node[c] = k;
   contact.area[c] = area;
   contact.state[c] = state;
@@ -74,11 +74,11 @@ NodeInColumn node_above(const mpm::SparseGrid<Dim>& grid, std::size_t b, std::si
 
 // Normal pressure [Pa] on the ground at a loaded node (Eq. 16), which also determines its contact area.
 template <int Dim>
-Real normal_pressure(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::Nodes<Dim>& nodes,
-                     std::size_t b, std::size_t k, Real dt) {
+double normal_pressure(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::Nodes<Dim>& nodes,
+                       std::size_t b, std::size_t k, double dt) {
   using Record = std::remove_cvref_t<decltype(nodes.base(b, k))>;
   static constexpr Record none{};
-  const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
+  const double smallest = smallest_area * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   return pressure_of_column(dt, smallest, [&](int step) -> const Record& {
     const NodeInColumn found = node_above(grid, b, k, step);
     const auto block = static_cast<std::size_t>(found.block);
@@ -86,21 +86,27 @@ Real normal_pressure(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
   });
 }
 
+// Ground at the nodes of a block; null if it has no candidate node.
+template <int Dim>
+const typename GroundOnGrid<Dim>::Block* candidates_of(const GroundOnGrid<Dim>* ground, std::size_t b) {
+  return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
+}
+
 // Finds the loaded nodes of a block with candidate nodes, and evaluates the laws of the case. reads_mass: as in
 // ContactModel, true for a law of the caller. finish(state, k): called for all other nodes with mass.
 template <int Dim, class Finish>
-void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                  const typename GroundOnGrid<Dim>::Block* known, const ContactModel<Dim>& model, bool reads_mass,
-                  const mpm::BlockConstraints<Dim>& on_block, std::size_t b, Real time, Real dt,
+void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, const ContactModel<Dim>& model,
+                  bool reads_mass, const mpm::BlockConstraints<Dim>& on_block, std::size_t b, double time, double dt,
                   const mpm::Nodes<Dim>& nodes, BlockContact<Dim>& contact, const Finish& finish) {
+  const auto* known = candidates_of(ground, b);
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   for (std::size_t k = 0; k < block_nodes; ++k) {
-    if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
+    if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > 0.0)) {
       continue;
     }
     const mpm::NodeConstraints<Dim> walls{on_block, k};
     const auto state = trial_state<Dim>(walls, dt, model.mass_damping, nodes.momentum(b, k));
-    if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
+    if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > 0.0) {
       add_contact_node(nodes, b, k, normal_pressure(grid, *ground, nodes, b, k, dt), dt, model, reads_mass, (*known)[k],
                        state, contact);
     } else {
@@ -112,14 +118,14 @@ void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* gro
 
 // Covered fraction of the ground at a node of layer 0.
 template <int Dim>
-Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes,
-                         std::size_t b, std::size_t k) {
-  const Real cell = grid.cell();
-  const Real space = (Dim == 2 ? width.at(mpm::node_position(grid, b, k)[0]) : cell) * cell * cell;
+double covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWidth& width,
+                           const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
+  const double cell = grid.cell();
+  const double space = (Dim == 2 ? width.at(mpm::node_position(grid, b, k)[0]) : cell) * cell * cell;
   return covered_fraction(space, [&](int step) {
     const NodeInColumn found = node_above(grid, b, k, step);
     return found.block == KeyIndex::absent
-               ? Real(0)
+               ? 0.0
                : nodes.momentum(static_cast<std::size_t>(found.block), found.node)[MomentumLayout<Dim>::volume];
   });
 }
@@ -128,14 +134,8 @@ Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWid
 template <int Dim>
 void start_block(const typename GroundOnGrid<Dim>::Block& known, std::size_t b, mpm::Nodes<Dim>& nodes) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-    nodes.contact.of_block(b)[k] = {known[k].candidate ? Real(1) : Real(0)};
+    nodes.contact.of_block(b)[k] = {known[k].candidate ? 1.0 : 0.0};
   }
-}
-
-// Ground at the nodes of a block; null if it has no candidate node.
-template <int Dim>
-const typename GroundOnGrid<Dim>::Block* candidates_of(const GroundOnGrid<Dim>* ground, std::size_t b) {
-  return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
 }
 
 // Strengths by a law of the caller: of all loaded nodes, and the first one of each block.
@@ -152,7 +152,7 @@ void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, const typename GroundOnG
     all.insert(all.end(), column.begin(), column.begin() + static_cast<std::ptrdiff_t>(basal.count));
   };
   for (std::size_t c = 0; c < basal.count; ++c) {
-    Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
+    Vector<double, Dim> position = mpm::node_position(grid, b, contact.node[c]);
     position[Dim - 1] = known[contact.node[c]].elevation;
     nodes.position.insert(nodes.position.end(), position.data(), position.data() + Dim);
   }
@@ -172,8 +172,8 @@ void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, const typename GroundOnG
 // Collects the loaded nodes of all blocks on one thread, and calls the law.
 template <int Dim>
 GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                            const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
-                            Real dt, const mpm::Nodes<Dim>& nodes) {
+                            const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
+                            double dt, const mpm::Nodes<Dim>& nodes) {
   GivenStrengths given;
   given.nodes.time = time;
   given.nodes.dt = dt;
@@ -181,8 +181,8 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
     given.first.push_back(given.nodes.strength.size());
     if (const auto* known = candidates_of(ground, b); known != nullptr) {
       BlockContact<Dim> contact;
-      find_contact(grid, ground, known, model, true, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time,
-                   dt, nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
+      find_contact(grid, ground, model, true, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time, dt,
+                   nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
       add_loaded_nodes(grid, *known, b, contact, given.nodes);
     }
   }
@@ -195,7 +195,7 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
 
 // Counts the force on a node of a held body as one of the ground, which holds it.
 template <int Dim>
-void hold_by_ground(const NodeState<Dim>& state, Real dt, ContactWork<Dim>& work) {
+void hold_by_ground(const NodeState<Dim>& state, double dt, ContactWork<Dim>& work) {
   work.constraint_impulse -= state.constraint_impulse;
   work.force -= state.constraint_impulse / dt;
 }
@@ -210,7 +210,7 @@ void apply_contact_conditions(const mpm::SparseGrid<Dim>& grid, const GroundOnGr
 
 template <int Dim>
 void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time, Real dt,
+                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time, double dt,
                      mpm::Nodes<Dim>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   // by block: 1 if a node is loaded; persistent, to avoid allocation in each step
@@ -225,17 +225,17 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
     const mpm::BlockConstraints<Dim> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < block_nodes; ++k) {
       auto& base = nodes.base.of_block(b)[k];
-      base.fill(Real(0));
+      base.fill(0.0);
       const GroundAtNode<Dim>& known = ground.block(b)[k];
       const auto& record = nodes.momentum(b, k);
-      if (known.candidate && record[MomentumLayout<Dim>::mass] > Real(0)) {
+      if (known.candidate && record[MomentumLayout<Dim>::mass] > 0.0) {
         const mpm::NodeConstraints<Dim> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
             known.bend * approach(model.distance_check,
                                   clearance_along_normal(known.normal, nodes.near_ground(b, k)[NearGround::clearance]),
-                                  dt, state.mass, Real(state.momentum.dot(known.normal)));
-        if (base[BaseLayout::load] > Real(0)) {
+                                  dt, state.mass, double(state.momentum.dot(known.normal)));
+        if (base[BaseLayout::load] > 0.0) {
           loaded[b] = 1;
         }
       }
@@ -251,7 +251,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
     }
     for (std::size_t k = 0; k < block_nodes; ++k) {
       const GroundAtNode<Dim>& known = ground.block(b)[k];
-      if (known.area > Real(0)) {
+      if (known.area > 0.0) {
         nodes.base.of_block(b)[k][BaseLayout::covered] =
             known.area * covered_fraction_at(grid, model.width, nodes, b, k);
       }
@@ -273,7 +273,7 @@ template <int Dim>
 bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
-      if (nodes.base(b, k)[BaseLayout::load] > Real(0) && !(nodes.base_state(b, k)[mpm::BaseState::area] > Real(0))) {
+      if (nodes.base(b, k)[BaseLayout::load] > 0.0 && !(nodes.base_state(b, k)[mpm::BaseState::area] > 0.0)) {
         return true;
       }
     }
@@ -283,8 +283,8 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
-                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed, const StrengthLaw* strength) {
+                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
+                                 double dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed, const StrengthLaw* strength) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
   apply_contact_conditions(grid, ground, nodes);
@@ -303,7 +303,7 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
       start_block(*known, b, nodes);
     }
     for (std::size_t k = 0; k < block_nodes; ++k) {
-      nodes.motion(b, k).fill(Real(0));
+      nodes.motion(b, k).fill(0.0);
     }
     const auto finish = [&](const NodeState<Dim>& state, std::size_t k) {
       finish_node<Dim>(state, on_block.any(), model.mass_damping, dt, work, nodes.motion(b, k));
@@ -312,13 +312,13 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
       }
     };
     BlockContact<Dim> contact;
-    find_contact(grid, ground, known, model, model.reads_mass || strength != nullptr, on_block, b, time, dt, nodes,
-                 contact, finish);
+    find_contact(grid, ground, model, model.reads_mass || strength != nullptr, on_block, b, time, dt, nodes, contact,
+                 finish);
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
-      const Real limit = model.base_is_fixed ? std::numeric_limits<Real>::infinity()
-                         : given             ? given->nodes.strength[given->first[b] + c]
-                                             : contact.basal.strength[c];
+      const double limit = model.base_is_fixed ? std::numeric_limits<double>::infinity()
+                           : given             ? given->nodes.strength[given->first[b] + c]
+                                               : contact.basal.strength[c];
       const BedBelowNode<Dim> below{bed != nullptr ? &bed->material() : nullptr,
                                     bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
                                     contact.area[c],
@@ -335,15 +335,15 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
-  template void start_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*, mpm::Nodes<Dim>&);         \
-  template void press_on_ground<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                          \
-                                     const mpm::Constraints<Dim>&, const ContactModel<Dim>&, Real, Real,             \
-                                     mpm::Nodes<Dim>&);                                                              \
-  template bool loads_bare_ground<Dim>(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&);                         \
-  template ContactWork<Dim> resolve_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*,              \
-                                                 const mpm::Constraints<Dim>&, const ContactModel<Dim>&, Real, Real, \
-                                                 mpm::Nodes<Dim>&, const Bed<Dim>*, const StrengthLaw*);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                               \
+  template void start_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*, mpm::Nodes<Dim>&);     \
+  template void press_on_ground<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                      \
+                                     const mpm::Constraints<Dim>&, const ContactModel<Dim>&, double, double,     \
+                                     mpm::Nodes<Dim>&);                                                          \
+  template bool loads_bare_ground<Dim>(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&);                     \
+  template ContactWork<Dim> resolve_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*,          \
+                                                 const mpm::Constraints<Dim>&, const ContactModel<Dim>&, double, \
+                                                 double, mpm::Nodes<Dim>&, const Bed<Dim>*, const StrengthLaw*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

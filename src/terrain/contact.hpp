@@ -24,7 +24,7 @@ struct ContactModel {
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
   bool reads_mass = true;       // the laws depend on P, T, S, n_e or the slip of the mass at nodes
   bool band_columns = false;    // the basal state is that of nodes.base_state
-  Real mass_damping = 0;        // [1/s]
+  double mass_damping = 0;      // [1/s]
   bool distance_check = false;  // contact acts only after a node has closed its clearance
 };
 
@@ -32,7 +32,7 @@ struct ContactModel {
 // nodes.near_ground of this step.
 template <int Dim>
 void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time, Real dt,
+                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time, double dt,
                      mpm::Nodes<Dim>& nodes);
 
 // True if a loaded node has no band column in reach (nodes.base_state).
@@ -46,8 +46,8 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 // fixed.
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
-                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed = nullptr,
+                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
+                                 double dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed = nullptr,
                                  const StrengthLaw* strength = nullptr);
 
 // Initializes nodes.contact before the first motion, without contact. `ground` may be null.

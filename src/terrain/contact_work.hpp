@@ -9,20 +9,20 @@ namespace thawslide::terrain {
 // Sums over contact and constraints in one step. Energies [J], forces [N], areas [m2].
 template <int Dim>
 struct ContactWork {
-  Real friction_work = 0;                               // dissipated by sliding
-  Real loss = 0;                                        // dissipated by impact on ground and walls, and by sticking
-  Real frame_work = 0;                                  // done by rigid frames on the sliding mass
-  Real converted = 0;                                   // friction work not converted to heat
-  Real damping = 0;                                     // dissipated by mass damping
-  Real node_kinetic = 0;                                // sum m |a dt|^2 / 2 over nodes
-  Real area = 0;                                        // in contact
-  Real friction_area = 0;                               // sum mu_e A
-  Real shear_force = 0;                                 // of the ground on the sliding mass, in any direction
-  Real bed_work = 0;                                    // lost to entrained bed material
-  Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
+  double friction_work = 0;                                 // dissipated by sliding
+  double loss = 0;                                          // dissipated by impact on ground and walls, and by sticking
+  double frame_work = 0;                                    // done by rigid frames on the sliding mass
+  double converted = 0;                                     // friction work not converted to heat
+  double damping = 0;                                       // dissipated by mass damping
+  double node_kinetic = 0;                                  // sum m |a dt|^2 / 2 over nodes
+  double area = 0;                                          // in contact
+  double friction_area = 0;                                 // sum mu_e A
+  double shear_force = 0;                                   // of the ground on the sliding mass, in any direction
+  double bed_work = 0;                                      // lost to entrained bed material
+  Vector<double, Dim> force = Vector<double, Dim>::Zero();  // on the ground
   // On the sliding mass, from walls, frames and mass damping [N s].
-  Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
-  Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();  // on entrained bed material [N s]
+  Vector<double, Dim> constraint_impulse = Vector<double, Dim>::Zero();
+  Vector<double, Dim> bed_impulse = Vector<double, Dim>::Zero();  // on entrained bed material [N s]
 
   THAWSLIDE_HD ContactWork& operator+=(const ContactWork& part) {
     friction_work += part.friction_work;

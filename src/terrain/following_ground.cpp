@@ -193,8 +193,7 @@ double FollowingGround<Dim>::height(const Point& point) const {
 template <int Dim>
 typename FollowingGround<Dim>::Point FollowingGround<Dim>::gradient(const Point& point, double width) const {
   constexpr double round_off = 1e-9;
-  return width > (1.0 + round_off) * cell_ ? terrain_->gradient(point, width)
-                                           : below(point, static_cast<double>(sizes_.half(0))).slope;
+  return width > (1.0 + round_off) * cell_ ? terrain_->gradient(point, width) : below(point, sizes_.half(0)).slope;
 }
 
 // In three dimensions, heights are bilinear between four columns; three Gauss points along each axis.
@@ -282,18 +281,18 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, int edge, GroundAtNo
     normal /= ground.resultant;
     middle.template head<Dim - 1>() = point;
     middle[Dim - 1] = ground.middle;
-    const double across = Dim == 2 ? static_cast<double>(width_.at(static_cast<Real>(point[0]))) : 1.0;
+    const double across = Dim == 2 ? width_.at(point[0]) : 1.0;
     for (int k = 0; k < edge; ++k) {
       const int layer = first[Dim - 1] + k;
       GroundAtNode<Dim>& node = nodes[c + k * columns];
       node.substrate = 0;
       node.candidate = layer <= 0;
-      node.elevation = static_cast<Real>(height + layer * cell_);
-      node.normal = normal.template cast<Real>();
-      node.bend = static_cast<Real>(bend);
-      node.area = static_cast<Real>(layer == 0 ? across * face * bend * ground.resultant : 0.0);
-      node.plane_scale = static_cast<Real>(node.candidate ? scale : 0.0);
-      node.plane = static_cast<Real>(node.candidate ? scale * normal.dot(middle) : HUGE_VAL);
+      node.elevation = height + layer * cell_;
+      node.normal = normal;
+      node.bend = bend;
+      node.area = layer == 0 ? across * face * bend * ground.resultant : 0.0;
+      node.plane_scale = node.candidate ? scale : 0.0;
+      node.plane = node.candidate ? scale * normal.dot(middle) : HUGE_VAL;
     }
   }
 }

@@ -38,7 +38,7 @@ class FollowingGround final : public Surface<Dim> {
 
   // B below particles of a body.
   [[nodiscard]] double height(const Point& point, std::size_t body) const {
-    return below(point, static_cast<double>(sizes_.half(body))).height;
+    return below(point, sizes_.half(body)).height;
   }
   // B and its gradient. Over more than a cell, the gradient is that of the terrain.
   [[nodiscard]] double height(const Point& point) const override;

@@ -71,9 +71,8 @@ class GroundOnGrid {
     blocks_.resize(keys_.size());
     any_candidate_.resize(keys_.size());
     partly_unknown_.resize(keys_.size());
-    parallel_for(keys_.size() - known_before, [&](std::size_t k) {
-      evaluate(surface, substrates, static_cast<double>(grid.cell()), known_before + k);
-    });
+    parallel_for(keys_.size() - known_before,
+                 [&](std::size_t k) { evaluate(surface, substrates, grid.cell(), known_before + k); });
     lowest_layer_.resize(grid.tiles().size());
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
       lowest_layer_[t] = T::index(grid.tiles()[t].key)[Dim - 1] * T::edge - 1;

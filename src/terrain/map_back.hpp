@@ -10,8 +10,8 @@ namespace thawslide::terrain {
 // heat). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work of internal forces on the nodes, minus the stress work
 // at the mapped-back velocities.
 template <int Dim>
-Real constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                           const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model,
-                           const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim>& nodes);
+double constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                             const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model,
+                             const Vector<double, Dim>& gravity, double time, double dt, mpm::Nodes<Dim>& nodes);
 
 }  // namespace thawslide::terrain

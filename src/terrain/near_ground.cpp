@@ -8,11 +8,11 @@
 namespace thawslide::terrain {
 
 template <int Dim>
-void set_contact_offset(const mpm::BodySizes& sizes, Real cell, mpm::Particles<Dim>& particles, std::size_t first) {
-  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);  // in half sizes of a particle
+void set_contact_offset(const mpm::BodySizes& sizes, double cell, mpm::Particles<Dim>& particles, std::size_t first) {
+  constexpr double within_lowest_layer = 2.0 * (1.0 + round_off);  // in half sizes of a particle
   for (std::size_t p = first; p < particles.size(); ++p) {
-    const Real half = sizes.half(static_cast<std::size_t>(particles.body(p))) * cell;
-    const Real height = particles.height_above_ground(p);
+    const double half = sizes.half(static_cast<std::size_t>(particles.body(p))) * cell;
+    const double height = particles.height_above_ground(p);
     particles.contact_offset(p) = height < within_lowest_layer * half ? height : half;
   }
 }
@@ -52,7 +52,7 @@ void clearance_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                            \
-  template void set_contact_offset<Dim>(const mpm::BodySizes&, Real, mpm::Particles<Dim>&, std::size_t);      \
+  template void set_contact_offset<Dim>(const mpm::BodySizes&, double, mpm::Particles<Dim>&, std::size_t);    \
   template void clearance_to_grid<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                 \
                                        const mpm::MotionModel<Dim>&, mpm::Particles<Dim>&, mpm::Nodes<Dim>&); \
   template void near_ground_to_grid<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,               \

@@ -12,7 +12,8 @@ namespace thawslide::terrain {
 // `first` and above. The lowest particles of a body that rests on the ground at the start touch at their initial
 // height. Other particles touch with the lower side of their box. sizes: half sizes of particles, in cells.
 template <int Dim>
-void set_contact_offset(const mpm::BodySizes& sizes, Real cell, mpm::Particles<Dim>& particles, std::size_t first = 0);
+void set_contact_offset(const mpm::BodySizes& sizes, double cell, mpm::Particles<Dim>& particles,
+                        std::size_t first = 0);
 
 // Fills nodes.near_ground of candidate nodes (other nodes of their blocks are undefined): the sums, and the clearance
 // [m] along the vertical, the smallest one of the particles in reach; 0 or less at contact.

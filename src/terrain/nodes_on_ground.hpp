@@ -13,7 +13,7 @@ namespace thawslide::terrain {
 // Planes of nodes, from the ground at nodes.
 template <int Dim>
 struct PlanesOfGround {
-  using Record = std::array<Real, mpm::record_size(mpm::components_of<mpm::Planes, Dim>)>;
+  using Record = std::array<double, mpm::record_size(mpm::components_of<mpm::Planes, Dim>)>;
 
   static Record record_of(const GroundAtNode<Dim>& known) {
     Record record{known.plane};

@@ -11,12 +11,12 @@ namespace thawslide::terrain {
 // Loaded contact nodes of a step, one array per quantity. Their order is that of the blocks and of the nodes in a
 // block, independent of the number of threads. Quantities are those of BasalNodes.
 struct LoadedNodes {
-  Real time = 0, dt = 0;       // begin and duration of the step [s]
-  std::vector<Real> position;  // Dim numbers per node [m], relative to the domain's lower corner
-  std::vector<Real> area;      // of contact [m2]
+  double time = 0, dt = 0;       // begin and duration of the step [s]
+  std::vector<double> position;  // Dim numbers per node [m], relative to the domain's lower corner
+  std::vector<double> area;      // of contact [m2]
   std::vector<int> substrate;
-  std::vector<Real> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
-  std::vector<Real> strength;  // of the case's laws [Pa]; the law of the caller replaces the values
+  std::vector<double> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
+  std::vector<double> strength;  // of the case's laws [Pa]; the law of the caller replaces the values
 };
 
 // Called by the thread that performs the step, before the step changes particles.

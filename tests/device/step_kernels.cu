@@ -29,10 +29,10 @@ struct TileOnDevice {
   const std::uint32_t* particle;
   const std::int32_t* nearest[Dim];
   const std::uint32_t* first_node;
-  const Real* records;
-  Real* totals;
+  const double* records;
+  double* totals;
   std::size_t count;
-  Real cell, inverse_cell;
+  double cell, inverse_cell;
   int sides[2][Dim];
 };
 
@@ -40,12 +40,12 @@ template <class Name, int Dim>
 struct PatchOnDevice {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   static constexpr std::size_t total = static_cast<std::size_t>(mpm::power(mpm::Tile<Dim>::patch_edge, Dim)) * size;
-  const Real* numbers;
+  const double* numbers;
 };
 
 // Copies a tile's patch, if any, to shared memory, one number per thread.
 template <int Dim, class... Names>
-__device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, Real* shared) {
+__device__ auto fetch(mpm::RecordList<Names...> /*names*/, const double* records, double* shared) {
   static_assert(sizeof...(Names) <= 1, "no kernel reads more");
   const auto copy = [&](std::size_t numbers) {
     for (std::size_t k = threadIdx.x; k < numbers; k += blockDim.x) {
@@ -71,7 +71,7 @@ struct CarriedOf<Dim, mpm::RecordList<Names...>> {
 template <class Shape, int Dim, class Kernel>
 __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typename Kernel::Adds>::Type* carried,
                       typename Kernel::Totals* totals, const Kernel& kernel) {
-  extern __shared__ Real shared[];
+  extern __shared__ double shared[];
   const auto patches = fetch<Dim>(typename Kernel::Reads{}, tile.records, shared);
   const std::size_t k = threadIdx.x;
   if (k >= tile.count) {
@@ -83,7 +83,7 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::int32_t nearest = tile.nearest[a][k];
     position.offset[static_cast<int>(a)] =
-        particles.position(at.particle[0], static_cast<int>(a)) * tile.inverse_cell - static_cast<Real>(nearest);
+        particles.position(at.particle[0], static_cast<int>(a)) * tile.inverse_cell - static_cast<double>(nearest);
     position.at_side[a] = nearest == tile.sides[0][a] || nearest == tile.sides[1][a];
   }
   mpm::OneWeights<Dim> weights(mpm::Mapping{}, particles, at);
@@ -115,8 +115,8 @@ __global__ void pass(TileOnDevice<Dim> tile, Results<Dim, Kernel<Dim>> to, Kerne
 
 template <int Dim, class Law>
 __global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Law>> to, Law law,
-                       physics::Elastic elastic, physics::Phases phases, bool gaps, Real viscosity_time,
-                       bool effective_stress, Real dt) {
+                       physics::Elastic elastic, physics::Phases phases, bool gaps, double viscosity_time,
+                       bool effective_stress, double dt) {
   const mpm::Deform<Dim, Law> kernel{law, elastic, phases, gaps, viscosity_time, effective_stress, dt};
   visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
@@ -129,7 +129,7 @@ using Law = band::ParticleHeat<Content<Curve>, band::InitialMasses>;
 template <int Dim, class Curve>
 __global__ void heat_flows(TileOnDevice<Dim> tile, Results<Dim, band::HeatFlows<Dim, Law<Curve>>> to,
                            Content<Curve> content, band::BandPhysics model, band::HydraulicConductivity hydraulic,
-                           Real dt, bool subgrid) {
+                           double dt, bool subgrid) {
   const Law<Curve> law{content};
   const band::HeatFlows<Dim, Law<Curve>> kernel{model, hydraulic, law, dt, tile.inverse_cell, subgrid};
   visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
@@ -137,14 +137,14 @@ __global__ void heat_flows(TileOnDevice<Dim> tile, Results<Dim, band::HeatFlows<
 
 template <int Dim, class Curve>
 __global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::SecantCapacity<Dim, Law<Curve>>> to,
-                                Content<Curve> content, Real dt) {
+                                Content<Curve> content, double dt) {
   const Law<Curve> law{content};
   visit<Shape<Dim>>(tile, to.carried, to.totals, band::SecantCapacity<Dim, Law<Curve>>{law, dt});
 }
 
 template <int Dim, class Curve>
 __global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<Dim, Law<Curve>>> to,
-                          Content<Curve> content, band::BandPhysics model, Real dt) {
+                          Content<Curve> content, band::BandPhysics model, double dt) {
   const Law<Curve> law{content};
   visit<Shape<Dim>>(tile, to.carried, to.totals, band::UpdateHeat<Dim, Law<Curve>>{model, law, dt});
 }
@@ -152,7 +152,7 @@ __global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<
 template <int Dim, class Curve>
 __global__ void update_heat_as_published(TileOnDevice<Dim> tile,
                                          Results<Dim, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>> to,
-                                         Content<Curve> content, band::BandPhysics model, Real dt) {
+                                         Content<Curve> content, band::BandPhysics model, double dt) {
   const Law<Curve> law{content};
   visit<Shape<Dim>>(tile, to.carried, to.totals, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>{model, law, dt});
 }
@@ -166,7 +166,7 @@ __global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::Updat
 
 template <int Dim>
 __global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<Dim>> to, band::BandPhysics model,
-                        band::HydraulicConductivity hydraulic, Real dt) {
+                        band::HydraulicConductivity hydraulic, double dt) {
   visit<Shape<Dim>>(tile, to.carried, to.totals, band::SeepageFlows<Dim>{model, hydraulic, dt, tile.inverse_cell});
 }
 
@@ -183,25 +183,25 @@ template <int Dim, bool Balances>
 __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to, band::BandPhysics model,
                               band::HydraulicConductivity hydraulic, const band::ColumnsOfTile<Dim>* columns) {
   visit<Shape<Dim>>(tile, to.carried, to.totals,
-                    Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
+                    Pressure<Dim, Balances>{model, hydraulic, 0.5 * tile.cell, *columns});
 }
 
 // Columns of the slide: overlap of a box, a column at the body's edge, and the load of a particle below one.
 template <int Dim>
-__global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, Real>* overlaps) {
+__global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, double>* overlaps) {
   const mpm::ScalarIndex at{{tile.particle[threadIdx.x]}};
   overlaps[threadIdx.x] = band::overlaps<Dim>(band::first_cell_of<Dim>(tile_key), tile.cell, tile.inverse_cell,
                                               tile.sizes, tile.particles, at);
 }
 template <int Dim>
-__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::ColumnMass* piles,
-                       const band::Extent<Dim>* extents, std::uint64_t* keys, Real* thickness, Real* load) {
+__global__ void column(std::uint64_t tile_key, double cell, const bool* filled, const band::ColumnMass* piles,
+                       const band::Extent<Dim>* extents, std::uint64_t* keys, double* thickness, double* load) {
   const std::size_t k = threadIdx.x;
   const auto is_filled = [&](std::size_t side) { return filled[k * band::column_sides<Dim> + side]; };
   const bool at_edge = band::lacks_neighbour<Dim>(is_filled);
   keys[k] = band::neighbour_column(band::column_key<Dim>(tile_key, k), k % 2);
   thickness[k] = band::thickness_of(piles[k], band::footprint_of<Dim>(cell, at_edge, extents[k], is_filled));
-  load[k] = band::load_per_depth(piles[k], load[k], Real(10));
+  load[k] = band::load_per_depth(piles[k], load[k], 10.0);
 }
 template <int Dim>
 __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, band::NumbersOfColumns> columns) {
@@ -213,9 +213,9 @@ __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, band::Numb
 // nodes, by sum or minimum.
 template <class Name, int Dim>
 __global__ void sum_in_cell(const mpm::OneWeights<Dim>* weights, const CarriedTo<Name, Dim>* carried, std::size_t first,
-                            std::size_t last, Real* sums) {
+                            std::size_t last, double* sums) {
   const std::size_t node = threadIdx.x, component = threadIdx.y;
-  Real sum = sums[node * blockDim.y + component];
+  double sum = sums[node * blockDim.y + component];
   for (std::size_t k = first; k < last; ++k) {
     const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
     const auto at = mpm::at_node<Dim>(weights[k].template of<typename Name::Functions>(), along);

@@ -18,15 +18,15 @@ struct BondsCohesion {
   static constexpr bool depends_on_mass = true;
   static constexpr auto parameters = parameter_list(initial_cohesion, slip_distance);
 
-  Real initial;   // c_0 [Pa]
-  Real distance;  // d_c [m]
+  double initial;   // c_0 [Pa]
+  double distance;  // d_c [m]
 
   template <class Numbers>
   static BondsCohesion from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(slip_distance))};
+    return {numbers(initial_cohesion), numbers(slip_distance)};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode& node) const {
-    return initial * std::exp(-node.slip / distance) * (Real(1) - node.saturation);
+  THAWSLIDE_HD double cohesion(const ContactNode& node) const {
+    return initial * std::exp(-node.slip / distance) * (1.0 - node.saturation);
   }
 };
 

@@ -15,13 +15,13 @@ struct CoefficientFriction {
   static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(friction_coefficient);
 
-  Real given;  // mu
+  double given;  // mu
 
   template <class Numbers>
   static CoefficientFriction from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(friction_coefficient))};
+    return {numbers(friction_coefficient)};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode& /*node*/) const { return given; }
+  THAWSLIDE_HD double coefficient(const ContactNode& /*node*/) const { return given; }
 };
 
 }  // namespace thawslide::physics::basal

@@ -12,13 +12,13 @@ struct ConstantCohesion {
   static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(initial_cohesion);
 
-  Real initial;  // c_0 [Pa]
+  double initial;  // c_0 [Pa]
 
   template <class Numbers>
   static ConstantCohesion from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(initial_cohesion))};
+    return {numbers(initial_cohesion)};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode& /*node*/) const { return initial; }
+  THAWSLIDE_HD double cohesion(const ContactNode& /*node*/) const { return initial; }
 };
 
 }  // namespace thawslide::physics::basal

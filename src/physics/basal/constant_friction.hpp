@@ -15,13 +15,13 @@ struct ConstantFriction {
   static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(friction_angle);
 
-  Real full_coefficient;  // tan(phi_f)
+  double full_coefficient;  // tan(phi_f)
 
   template <class Numbers>
   static ConstantFriction from(const Numbers& numbers) {
-    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi / 180.0))};
+    return {std::tan(numbers(friction_angle) * pi / 180.0)};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode& /*node*/) const { return full_coefficient; }
+  THAWSLIDE_HD double coefficient(const ContactNode& /*node*/) const { return full_coefficient; }
 };
 
 }  // namespace thawslide::physics::basal

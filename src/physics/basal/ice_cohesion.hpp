@@ -13,13 +13,13 @@ struct IceCohesion {
   static constexpr bool depends_on_mass = true;
   static constexpr auto parameters = parameter_list(initial_cohesion);
 
-  Real initial;  // c_0 [Pa]
+  double initial;  // c_0 [Pa]
 
   template <class Numbers>
   static IceCohesion from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(initial_cohesion))};
+    return {numbers(initial_cohesion)};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode& node) const { return initial * (Real(1) - node.saturation); }
+  THAWSLIDE_HD double cohesion(const ContactNode& node) const { return initial * (1.0 - node.saturation); }
 };
 
 }  // namespace thawslide::physics::basal

@@ -32,11 +32,11 @@ using CohesionLaw = std::variant<  //
 
 // Traction of a friction law that is independent of the load [Pa].
 template <class Law>
-THAWSLIDE_HD Real drag_of(const Law& law, const ContactNode& node) {
+THAWSLIDE_HD double drag_of(const Law& law, const ContactNode& node) {
   if constexpr (requires { law.drag(node); }) {
     return law.drag(node);
   } else {
-    return Real(0);
+    return 0.0;
   }
 }
 

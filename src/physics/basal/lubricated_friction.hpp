@@ -39,20 +39,19 @@ struct LubricatedFriction {
   static constexpr auto parameters =
       parameter_list(friction_angle, lubrication_exponent, min_solid_fraction, max_solid_fraction);
 
-  Real full_coefficient;  // tan(phi_f)
-  Real exponent;          // omega
-  Real least, most;       // n_min, n_max
+  double full_coefficient;  // tan(phi_f)
+  double exponent;          // omega
+  double least, most;       // n_min, n_max
 
   template <class Numbers>
   static LubricatedFriction from(const Numbers& numbers) {
-    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi / 180.0)),
-            static_cast<Real>(numbers(lubrication_exponent)), static_cast<Real>(numbers(min_solid_fraction)),
-            static_cast<Real>(numbers(max_solid_fraction))};
+    return {std::tan(numbers(friction_angle) * pi / 180.0), numbers(lubrication_exponent), numbers(min_solid_fraction),
+            numbers(max_solid_fraction)};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode& node) const {
-    const Real ratio = (node.solid_fraction - least) / (most - least);
-    const Real clamped = ratio < Real(0) ? Real(0) : ratio > Real(1) ? Real(1) : ratio;
-    return (Real(1) - power(Real(1) - clamped, exponent)) * full_coefficient;
+  THAWSLIDE_HD double coefficient(const ContactNode& node) const {
+    const double ratio = (node.solid_fraction - least) / (most - least);
+    const double clamped = ratio < 0.0 ? 0.0 : ratio > 1.0 ? 1.0 : ratio;
+    return (1.0 - power(1.0 - clamped, exponent)) * full_coefficient;
   }
 };
 

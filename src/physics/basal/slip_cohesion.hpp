@@ -15,15 +15,14 @@ struct SlipCohesion {
   static constexpr bool depends_on_mass = true;
   static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, slip_distance);
 
-  Real initial, residual;  // c_0, c_r [Pa]
-  Real distance;           // d_c [m]
+  double initial, residual;  // c_0, c_r [Pa]
+  double distance;           // d_c [m]
 
   template <class Numbers>
   static SlipCohesion from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(residual_cohesion)),
-            static_cast<Real>(numbers(slip_distance))};
+    return {numbers(initial_cohesion), numbers(residual_cohesion), numbers(slip_distance)};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode& node) const {
+  THAWSLIDE_HD double cohesion(const ContactNode& node) const {
     return residual + (initial - residual) * std::exp(-node.slip / distance);
   }
 };

@@ -18,15 +18,14 @@ struct TimeCohesion {
   static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, cohesion_loss_time);
 
-  Real initial, residual;  // c_0, c_r [Pa]
-  Real loss_time;          // [s]
+  double initial, residual;  // c_0, c_r [Pa]
+  double loss_time;          // [s]
 
   template <class Numbers>
   static TimeCohesion from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(residual_cohesion)),
-            static_cast<Real>(numbers(cohesion_loss_time))};
+    return {numbers(initial_cohesion), numbers(residual_cohesion), numbers(cohesion_loss_time)};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode& node) const { return node.time < loss_time ? initial : residual; }
+  THAWSLIDE_HD double cohesion(const ContactNode& node) const { return node.time < loss_time ? initial : residual; }
 };
 
 }  // namespace thawslide::physics::basal

@@ -27,15 +27,15 @@ struct VoellmyFriction {
   static constexpr bool depends_on_mass = false;
   static constexpr auto parameters = parameter_list(friction_coefficient, turbulent_friction);
 
-  Real given;       // mu
-  Real turbulence;  // xi [m/s2]
+  double given;       // mu
+  double turbulence;  // xi [m/s2]
 
   template <class Numbers>
   static VoellmyFriction from(const Numbers& numbers) {
-    return {static_cast<Real>(numbers(friction_coefficient)), static_cast<Real>(numbers(turbulent_friction))};
+    return {numbers(friction_coefficient), numbers(turbulent_friction)};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode& /*node*/) const { return given; }
-  THAWSLIDE_HD Real drag(const ContactNode& node) const {
+  THAWSLIDE_HD double coefficient(const ContactNode& /*node*/) const { return given; }
+  THAWSLIDE_HD double drag(const ContactNode& node) const {
     return node.unit_weight * node.speed * node.speed / turbulence;
   }
 };

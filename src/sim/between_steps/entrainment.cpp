@@ -44,9 +44,8 @@ double volume_below(const config::Case& parameters, const config::Site& site,
   return sum * std::pow(grid.cell / samples, Dim - 1);
 }
 
-terrain::BedMaterial make_bed_material(const config::Bed& bed, Real density) {
-  return {bed.law, static_cast<Real>(bed.strength), static_cast<Real>(std::tan(bed.friction_angle * pi / 180.0)),
-          static_cast<Real>(bed.depth_per_slip), density};
+terrain::BedMaterial make_bed_material(const config::Bed& bed, double density) {
+  return {bed.law, bed.strength, std::tan(bed.friction_angle * pi / 180.0), bed.depth_per_slip, density};
 }
 
 // Positions below the slide at which material removed from columns may join, relative to the domain's lower corner:
@@ -69,15 +68,13 @@ std::vector<Vector<double, Dim - 1>> places_below_slide(
   for (const std::uint32_t p : slide.grid.order()) {
     typename terrain::Bed<Dim>::Column column;
     for (int a = 0; a + 1 < Dim; ++a) {
-      column[static_cast<std::size_t>(a)] =
-          static_cast<int>(std::lround(static_cast<double>(slide.particles.position(p, a)) / cell));
+      column[static_cast<std::size_t>(a)] = static_cast<int>(std::lround(slide.particles.position(p, a) / cell));
     }
     const auto found = lowest.find(column);
-    const auto height = static_cast<double>(slide.particles.position(p, Dim - 1));
+    const auto height = slide.particles.position(p, Dim - 1);
     const std::int64_t id = slide.particles.id(p);
     if (found != lowest.end() && std::tie(height, id) < std::tie(found->second.height, found->second.id)) {
-      found->second = {slide.particles.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(), height,
-                       id};
+      found->second = {slide.particles.position.template get<Vector<double, Dim - 1>>(p), height, id};
     }
   }
   std::vector<Vector<double, Dim - 1>> positions;
@@ -96,14 +93,14 @@ NewParticle<Dim> particle_of_bed(const Setup<Dim>& setup, Vector<double, Dim - 1
   const Model<Dim>& model = setup.model;
   const double cell = setup.cell();
   const auto body = static_cast<std::int32_t>(model.body_names.size() - 1);
-  const double half = static_cast<double>(model.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
+  const double half = model.motion.sizes.half(static_cast<std::size_t>(body)) * cell;
   const double turn = 0.6180339887498949 * static_cast<double>(number);
-  const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>().template cast<double>();
+  const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>();
   if (along.norm() > 0.0) {
     position -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
   }
   for (int a = 0; a + 1 < Dim; ++a) {
-    position[a] = std::clamp(position[a], half, static_cast<double>(model.constraints.extent[a]) - half);
+    position[a] = std::clamp(position[a], half, model.constraints.extent[a] - half);
   }
   const Vector<double, Dim> normal = model.ground->normal_below(position, cell);
   NewParticle<Dim> one;
@@ -113,16 +110,16 @@ NewParticle<Dim> particle_of_bed(const Setup<Dim>& setup, Vector<double, Dim - 1
       model.material_names.begin());
   const double height = model.ground->height(position, static_cast<std::size_t>(body)) + half;
   for (int a = 0; a + 1 < Dim; ++a) {
-    one.position[a] = static_cast<Real>(position[a]);
+    one.position[a] = position[a];
   }
-  one.position[Dim - 1] = static_cast<Real>(height);
+  one.position[Dim - 1] = height;
   one.velocity = material.momentum / material.mass;
   one.volume = material.mass / model.bed_density;
-  one.temperature = static_cast<Real>(setup.parameters.bed.temperature);
-  one.porosity = static_cast<Real>(setup.parameters.bed.porosity);
-  const Real weight = model.bed_density * model.motion.gravity.norm() * static_cast<Real>(std::abs(normal[Dim - 1]));
-  one.flow_depth = weight > Real(0) ? material.normal_pressure / weight : Real(0);
-  one.heat = material.work - Real(0.5) * material.momentum.squaredNorm() / material.mass;
+  one.temperature = setup.parameters.bed.temperature;
+  one.porosity = setup.parameters.bed.porosity;
+  const double weight = model.bed_density * model.motion.gravity.norm() * std::abs(normal[Dim - 1]);
+  one.flow_depth = weight > 0.0 ? material.normal_pressure / weight : 0.0;
+  one.heat = material.work - 0.5 * material.momentum.squaredNorm() / material.mass;
   return one;
 }
 
@@ -141,9 +138,9 @@ std::optional<terrain::Bed<Dim>> make_bed(const config::Case& parameters, const 
         static_cast<int>(std::lround((parameters.grid.max[a] - parameters.grid.min[a]) / parameters.grid.cell)) + 1;
     count *= static_cast<std::size_t>(columns[a]);
   }
-  std::vector<Real> mass(count);
-  for (Real& of_column : mass) {
-    of_column = model.bed_density * static_cast<Real>(volume_below<Dim>(parameters, site, at));
+  std::vector<double> mass(count);
+  for (double& of_column : mass) {
+    of_column = model.bed_density * volume_below<Dim>(parameters, site, at);
     for (std::size_t a = 0; a < at.size() && ++at[a] == columns[a]; ++a) {
       at[a] = 0;
     }
@@ -156,21 +153,20 @@ std::optional<terrain::Bed<Dim>> make_bed(const config::Case& parameters, const 
 template <int Dim>
 std::vector<NewParticle<Dim>> loose_particles(const Setup<Dim>& setup, const Solver<Dim>& solver,
                                               const Slide<Dim>& slide, terrain::Bed<Dim>& bed, Budget<Dim>& budget) {
-  const Real whole = setup.model.bed_density *
-                     static_cast<Real>(std::pow(setup.cell() / setup.parameters.bed.particles_per_axis, Dim));
+  const double whole = setup.model.bed_density * std::pow(setup.cell() / setup.parameters.bed.particles_per_axis, Dim);
   std::vector<typename terrain::Bed<Dim>::Column> columns;
   std::vector<terrain::LooseMaterial<Dim>> parts;
   bed.release([&](const auto& column, const terrain::LooseMaterial<Dim>& material) {
     const bool has_passed = material.idle * material.momentum.norm() > slide.grid.cell() * material.mass;
     const bool is_last = bed.is_exhausted(column) || has_passed;
-    if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_fraction) * whole))) {
+    if (!(material.mass >= whole || (is_last && material.mass >= least_fraction * whole))) {
       return false;
     }
-    const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(material.mass / whole)));
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(material.mass / whole)));
     terrain::LooseMaterial<Dim> part = material;
-    part.mass /= static_cast<Real>(count);
-    part.momentum /= static_cast<Real>(count);
-    part.work /= static_cast<Real>(count);
+    part.mass /= static_cast<double>(count);
+    part.momentum /= static_cast<double>(count);
+    part.work /= static_cast<double>(count);
     columns.insert(columns.end(), count, column);
     parts.insert(parts.end(), count, part);
     return true;

@@ -40,18 +40,18 @@ constexpr double not_sampled = -1.0;
 // run.
 template <int Dim>
 double energy_made(const Budget<Dim>& budget, const mpm::MonitorSums& seen) {
-  const Real there = seen.kinetic + seen.potential + budget.stress_work + budget.pore_work + budget.left_mechanical;
-  const Real dissipated =
+  const double there = seen.kinetic + seen.potential + budget.stress_work + budget.pore_work + budget.left_mechanical;
+  const double dissipated =
       budget.viscous + budget.damping + budget.friction_work + budget.contact_loss + budget.bed_work;
-  const Real came = budget.frame_work + budget.joined_mechanical + budget.initial_mechanical;
-  return static_cast<double>(there + dissipated - came);
+  const double came = budget.frame_work + budget.joined_mechanical + budget.initial_mechanical;
+  return there + dissipated - came;
 }
 
 // Total energy so far: held by the material, kinetic or dissipated [J].
 template <int Dim>
 double energy_so_far(const Budget<Dim>& budget, const mpm::MonitorSums& seen, double energy_at_start) {
-  return energy_at_start + static_cast<double>(seen.kinetic + std::abs(budget.stress_work) + budget.viscous +
-                                               budget.damping + budget.friction_work + budget.contact_loss);
+  return energy_at_start + (seen.kinetic + std::abs(budget.stress_work) + budget.viscous + budget.damping +
+                            budget.friction_work + budget.contact_loss);
 }
 
 // True if more than moving_fraction_at_rest of the mass moves faster than `speed` [m/s].
@@ -59,9 +59,9 @@ template <int Dim>
 bool starts_faster(const mpm::Particles<Dim>& particles, double speed) {
   double mass = 0.0, fast_mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const auto velocity = particles.velocity.template get<Vector<Real, Dim>>(p);
-    mass += static_cast<double>(particles.mass(p));
-    fast_mass += static_cast<double>(velocity.norm()) > speed ? static_cast<double>(particles.mass(p)) : 0.0;
+    const auto velocity = particles.velocity.template get<Vector<double, Dim>>(p);
+    mass += particles.mass(p);
+    fast_mass += velocity.norm() > speed ? particles.mass(p) : 0.0;
   }
   return fast_mass > moving_fraction_at_rest * mass;
 }
@@ -73,13 +73,13 @@ double rest_time_from_start(const config::Time& times, double gravity) {
 
 // True if more than moving_fraction_at_rest of the mass has moved farther than a distance [m].
 template <int Dim>
-bool has_moved_further(const mpm::Particles<Dim>& particles, Real distance) {
-  Real mass = 0, far_mass = 0;
+bool has_moved_further(const mpm::Particles<Dim>& particles, double distance) {
+  double mass = 0, far_mass = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     mass += particles.mass(p);
-    far_mass += particles.path_length(p) > distance ? particles.mass(p) : Real(0);
+    far_mass += particles.path_length(p) > distance ? particles.mass(p) : 0.0;
   }
-  return far_mass > static_cast<Real>(moving_fraction_at_rest) * mass;
+  return far_mass > moving_fraction_at_rest * mass;
 }
 
 // Time of the last scheduled change of the case, or of the last release [s].
@@ -98,10 +98,9 @@ template <int Dim>
 mpm::MonitorKernel<Dim> monitor_kernel(const Setup<Dim>& setup, double dt) {
   // Displacement per step above which a particle is fast. Particle velocity also contains FLIP noise, which the grid
   // does not resolve and which displaces nothing.
-  const Real fast_distance = static_cast<Real>(rest_speed(setup.parameters.time)) * static_cast<Real>(dt);
+  const double fast_distance = rest_speed(setup.parameters.time) * dt;
   const config::Guards& guards = setup.parameters.guards;
-  return {setup.model.motion.gravity, setup.model.origin.template cast<Real>(), fast_distance,
-          static_cast<Real>(guards.smallest_volume), static_cast<Real>(guards.largest_volume)};
+  return {setup.model.motion.gravity, setup.model.origin, fast_distance, guards.smallest_volume, guards.largest_volume};
 }
 
 template <int Dim>
@@ -110,9 +109,8 @@ RunMonitor monitor_at_start(const Setup<Dim>& setup, const Slide<Dim>& slide, co
   RunMonitor monitor;
   for (const std::uint32_t p : slide.grid.order()) {
     const auto& material = setup.model.motion.materials[static_cast<std::size_t>(slide.particles.material(p))];
-    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim>(slide.particles.stress, p);
-    monitor.energy_at_start +=
-        static_cast<double>(slide.particles.volume(p) * physics::elastic_energy_density(material.elastic, stress));
+    const SymmetricTensor<double> stress = mpm::full_tensor<Dim>(slide.particles.stress, p);
+    monitor.energy_at_start += slide.particles.volume(p) * physics::elastic_energy_density(material.elastic, stress);
   }
   monitor.lowest_made = energy_made(budget, seen);
   monitor.rest_since = starts_faster(slide.particles, rest_speed(setup.parameters.time)) ? -1.0 : 0.0;
@@ -126,9 +124,9 @@ std::optional<EnergyGrowth> check_energy(const Setup<Dim>& setup, const Budget<D
   monitor.lowest_made = std::min(made, monitor.lowest_made + forgotten_fraction * (made - monitor.lowest_made));
   monitor.largest_energy = std::max(monitor.largest_energy, energy_so_far(budget, seen, monitor.energy_at_start));
   const double growth = made - monitor.lowest_made;
-  const double weight = static_cast<double>(seen.mass * setup.model.motion.gravity.norm());
+  const double weight = seen.mass * setup.model.motion.gravity.norm();
   const double energy = std::max(monitor.largest_energy, weight * noticed_fall * setup.cell());
-  const double round_off_of_sums = round_off_of_energy * static_cast<double>(std::abs(seen.potential));
+  const double round_off_of_sums = round_off_of_energy * std::abs(seen.potential);
   monitor.made_fraction = made > round_off_of_sums ? made / energy : 0.0;
   if (growth > setup.parameters.guards.energy_growth * energy + round_off_of_sums) {
     return EnergyGrowth{growth, growth / energy};
@@ -140,14 +138,14 @@ template <int Dim>
 void update_rest(const Setup<Dim>& setup, double time, const mpm::MonitorSums& seen, const Solver<Dim>& solver,
                  const Slide<Dim>& slide, RunMonitor& monitor) {
   const config::Time& times = setup.parameters.time;
-  const bool moves = seen.fast_mass > static_cast<Real>(moving_fraction_at_rest) * seen.mass;
+  const bool moves = seen.fast_mass > moving_fraction_at_rest * seen.mass;
   if (times.stop_at_rest <= 0.0) {
     monitor.has_moved = not_sampled;
   } else if (monitor.has_moved == not_sampled) {
     // The criterion of rest used another speed so far.
     monitor.rest_since = -1.0;
     solver.copy_particles_back();
-    monitor.has_moved = has_moved_further(slide.particles, static_cast<Real>(times.moved_distance)) ? 1.0 : 0.0;
+    monitor.has_moved = has_moved_further(slide.particles, times.moved_distance) ? 1.0 : 0.0;
   }
   if (moves) {
     monitor.has_moved = times.stop_at_rest > 0.0 ? 1.0 : not_sampled;
@@ -160,9 +158,8 @@ void update_rest(const Setup<Dim>& setup, double time, const mpm::MonitorSums& s
 template <int Dim>
 bool is_at_rest(const Setup<Dim>& setup, const Clock& clock, const RunMonitor& monitor) {
   const config::Time& times = setup.parameters.time;
-  const double needed = monitor.rest_since > 0.0
-                            ? times.rest_time
-                            : rest_time_from_start(times, static_cast<double>(setup.model.motion.gravity.norm()));
+  const double needed =
+      monitor.rest_since > 0.0 ? times.rest_time : rest_time_from_start(times, setup.model.motion.gravity.norm());
   const double from = std::max(monitor.rest_since, last_event(setup.parameters, setup.model));
   return monitor.rest_since >= 0.0 && clock.step_number >= watch_interval && clock.time - from >= needed * (1.0 - 1e-9);
 }
@@ -170,7 +167,7 @@ bool is_at_rest(const Setup<Dim>& setup, const Clock& clock, const RunMonitor& m
 template <int Dim>
 std::string rest_rule(const Setup<Dim>& setup) {
   const config::Time& times = setup.parameters.time;
-  const double from_start = rest_time_from_start(times, static_cast<double>(setup.model.motion.gravity.norm()));
+  const double from_start = rest_time_from_start(times, setup.model.motion.gravity.norm());
   const std::string or_from_start =
       from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
   const double event = last_event(setup.parameters, setup.model);

@@ -17,7 +17,7 @@ void fill_new(const std::vector<NewParticle<Dim>>& joining, std::size_t first, s
     const NewParticle<Dim>& one = joining[k];
     const std::size_t p = first + k;
     THAWSLIDE_ASSERT(static_cast<std::size_t>(one.body) < model.body_names.size() &&
-                         static_cast<std::size_t>(one.material) < model.material_names.size() && one.volume > Real(0),
+                         static_cast<std::size_t>(one.material) < model.material_names.size() && one.volume > 0.0,
                      "a particle of body {}, material {} and {} m3 joins", one.body, one.material, one.volume);
     particles.id(p) = next_id++;
     particles.body(p) = one.body;
@@ -28,7 +28,7 @@ void fill_new(const std::vector<NewParticle<Dim>>& joining, std::size_t first, s
     particles.temperature(p) = one.temperature;
     particles.porosity(p) = particles.initial_porosity(p) = one.porosity;
     particles.flow_depth(p) = one.flow_depth;
-    particles.thermal_scaling(p) = Real(1);
+    particles.thermal_scaling(p) = 1.0;
     for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
       particles.stress(p, c) = one.stress[c];
     }

@@ -32,18 +32,18 @@ Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
 // Fault of a single particle after a step.
 template <int Dim>
 mpm::Fault fault_of(const mpm::Particles<Dim>& particles, std::size_t p, const config::Guards& guards) {
-  const Real volume = particles.volume(p);
+  const double volume = particles.volume(p);
   if (!std::isfinite(volume)) {
     return mpm::Fault::volume_not_finite;
   }
-  Real state = particles.temperature(p) + particles.pore_pressure(p) + particles.stress(p, 0);
+  double state = particles.temperature(p) + particles.pore_pressure(p) + particles.stress(p, 0);
   for (int a = 0; a < Dim; ++a) {
     state += particles.step_displacement(p, a);
   }
   if (!std::isfinite(state)) {
     return mpm::Fault::state_not_finite;
   }
-  const auto ratio = static_cast<double>(volume / particles.initial_volume(p));
+  const auto ratio = volume / particles.initial_volume(p);
   if (ratio <= 0.0) {
     return mpm::Fault::volume_not_positive;
   }
@@ -55,13 +55,13 @@ mpm::Fault fault_of(const mpm::Particles<Dim>& particles, std::size_t p, const c
 
 // Marks particles outside the domain.
 template <int Dim>
-void mark_left_domain(const mpm::Particles<Dim>& particles, const Vector<Real, Dim>& extent,
+void mark_left_domain(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& extent,
                       std::vector<std::uint8_t>& marks) {
   constexpr std::size_t of_a_task = 1024;
   parallel_for((marks.size() + of_a_task - 1) / of_a_task, [&](std::size_t task) {
     for (std::size_t p = task * of_a_task; p < std::min(marks.size(), (task + 1) * of_a_task); ++p) {
       for (int a = 0; a < Dim && marks[p] == stays; ++a) {
-        if (particles.position(p, a) < Real(0) || particles.position(p, a) > extent[a]) {
+        if (particles.position(p, a) < 0.0 || particles.position(p, a) > extent[a]) {
           marks[p] = has_left;
         }
       }
@@ -73,17 +73,17 @@ void mark_left_domain(const mpm::Particles<Dim>& particles, const Vector<Real, D
 template <int Dim>
 void add_not_finite(const Setup<Dim>& setup, const mpm::Particles<Dim>& particles, std::size_t p, Budget<Dim>& budget) {
   budget.left_mass += particles.mass(p);
-  const Vector<Real, Dim> position = position_of(setup.model, particles, p).template cast<Real>();
+  const Vector<double, Dim> position = position_of(setup.model, particles, p);
   budget.left_mechanical -= particles.mass(p) * setup.model.motion.gravity.dot(position);
 }
 
 // The effect of a step with a non-finite particle is unknown as well, so its budget terms stay unchanged.
 template <int Dim>
 void undo_not_finite(Budget<Dim> before, Budget<Dim>& budget) {
-  std::vector<Real> terms;
-  before.for_each([&](const Real& term) { terms.push_back(term); });
+  std::vector<double> terms;
+  before.for_each([&](const double& term) { terms.push_back(term); });
   std::size_t k = 0;
-  budget.for_each([&](Real& term) {
+  budget.for_each([&](double& term) {
     term = std::isfinite(term) ? term : terms[k];
     ++k;
   });
@@ -126,7 +126,7 @@ void mark_left(const Setup<Dim>& setup, const Slide<Dim>& slide, bool all_tiles,
     }
     for (std::uint32_t k = slide.grid.tiles()[t].first; k < slide.grid.tiles()[t].last; ++k) {
       const std::uint32_t p = slide.grid.order()[k];
-      const auto position = slide.particles.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>();
+      const auto position = slide.particles.position.template get<Vector<double, Dim - 1>>(p);
       if (setup.model.ground->is_known(position) || (!marks.empty() && marks[p] != stays)) {
         continue;
       }
@@ -156,7 +156,7 @@ void add_removed(const Setup<Dim>& setup, const Slide<Dim>& slide, const Marks& 
       known[p] = stays;
       add_not_finite(setup, slide.particles, p, budget);
     }
-    budget.removed_mass += marks[p] == is_not_finite || marks[p] == has_inverted ? slide.particles.mass(p) : Real(0);
+    budget.removed_mass += marks[p] == is_not_finite || marks[p] == has_inverted ? slide.particles.mass(p) : 0.0;
   }
   const band::BodySums<Dim> sums = sum_over_marked(slide, of_particle, known);
   budget.left_mass += sums.mass;

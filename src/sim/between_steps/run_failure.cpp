@@ -37,13 +37,13 @@ std::string heading(double x, double y) {
 
 // Axis along which a particle within the domain reaches a side first.
 template <int Dim>
-int axis_of_exit(const Vector<Real, Dim>& position, const Vector<Real, Dim>& velocity,
-                 const Vector<Real, Dim>& extent) {
+int axis_of_exit(const Vector<double, Dim>& position, const Vector<double, Dim>& velocity,
+                 const Vector<double, Dim>& extent) {
   int first = 0;
   double soonest = HUGE_VAL;
   for (int a = 0; a < Dim; ++a) {
-    const double speed = static_cast<double>(velocity[a]);
-    const double ahead = static_cast<double>(speed > 0.0 ? extent[a] - position[a] : position[a]);
+    const double speed = velocity[a];
+    const double ahead = speed > 0.0 ? extent[a] - position[a] : position[a];
     const double time = speed == 0.0 ? HUGE_VAL : ahead / std::abs(speed);
     if (time < soonest) {
       soonest = time;
@@ -72,7 +72,7 @@ double distance_to_domain_edge(const config::Site& site, const Point2& position,
 // Index in memory; ties are broken by the smallest id.
 template <int Dim>
 std::size_t fastest_particle(const mpm::Particles<Dim>& particles) {
-  const auto speed = [&](std::size_t p) { return particles.velocity.template get<Vector<Real, Dim>>(p).norm(); };
+  const auto speed = [&](std::size_t p) { return particles.velocity.template get<Vector<double, Dim>>(p).norm(); };
   std::size_t fastest = 0;
   for (std::size_t p = 1; p < particles.size(); ++p) {
     if (speed(p) > speed(fastest) || (speed(p) == speed(fastest) && particles.id(p) < particles.id(fastest))) {
@@ -89,8 +89,8 @@ std::string closed_pores(const mpm::Particles<Dim>& particles) {
   double hottest = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     double temperature = 0.0;  // current and previous temperature, if finite
-    for (const Real one : {particles.temperature(p), particles.previous_temperature(p)}) {
-      temperature = std::max(temperature, static_cast<double>(one));
+    for (const double one : {particles.temperature(p), particles.previous_temperature(p)}) {
+      temperature = std::max(temperature, one);
     }
     hottest = std::max(hottest, temperature);
     closed += particles.porosity(p) <= physics::smallest_porosity && temperature > hot ? 1u : 0u;
@@ -112,8 +112,8 @@ std::string compressed_pores(const mpm::Particles<Dim>& particles) {
   double smallest = 1.0;  // volume relative to that at t = 0
   bool is_closed = false;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const auto ratio = static_cast<double>(particles.volume(p) / particles.initial_volume(p));
-    is_closed = is_closed || ratio < 1.0 - 0.9 * static_cast<double>(particles.initial_porosity(p));
+    const auto ratio = particles.volume(p) / particles.initial_volume(p);
+    is_closed = is_closed || ratio < 1.0 - 0.9 * particles.initial_porosity(p);
     smallest = std::min(smallest, ratio);
   }
   return is_closed ? fmt::format(
@@ -130,7 +130,7 @@ template <int Dim>
 Vector<double, Dim> position_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles, std::size_t p) {
   Vector<double, Dim> position;
   for (int a = 0; a < Dim; ++a) {
-    position[a] = static_cast<double>(particles.position(p, a)) + model.origin[a];
+    position[a] = particles.position(p, a) + model.origin[a];
   }
   return position;
 }
@@ -148,7 +148,7 @@ std::string FailureText<Dim>::name_of(std::size_t p) const {
 
 template <int Dim>
 std::string FailureText<Dim>::fault_text(std::size_t p, mpm::Fault fault) const {
-  const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
+  const auto ratio = particles_.volume(p) / particles_.initial_volume(p);
   const config::Guards& guards = setup_.parameters.guards;
   switch (fault) {
     case mpm::Fault::volume_not_finite:
@@ -176,8 +176,8 @@ std::string FailureText<Dim>::fault_text(std::size_t p, mpm::Fault fault) const 
 // Stopping distance of a particle by friction, v2/(2 g tan(angle)), compared with the distance to the edge of the DEM.
 template <int Dim>
 std::string FailureText<Dim>::terrain_ahead(std::size_t p, mpm::Fault fault) const {
-  const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
-  const double gravity = static_cast<double>(setup_.model.motion.gravity.norm());
+  const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<double, Dim>>(p);
+  const double gravity = setup_.model.motion.gravity.norm();
   constexpr double angle = config::usual_reach_angle, degree = pi / 180.0, rounded_to = 10.0;
   const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
   const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
@@ -188,8 +188,8 @@ std::string FailureText<Dim>::terrain_ahead(std::size_t p, mpm::Fault fault) con
   if (Dim == 2 || setup_.site.ground == nullptr || fault == mpm::Fault::left_map) {
     return level;
   }
-  const Point2 position{static_cast<double>(particles_.position(p, 0)) + setup_.model.origin[0],
-                        static_cast<double>(particles_.position(p, 1)) + setup_.model.origin[1]};
+  const Point2 position{particles_.position(p, 0) + setup_.model.origin[0],
+                        particles_.position(p, 1) + setup_.model.origin[1]};
   const double to_edge = distance_to_domain_edge(setup_.site, position, {velocity[0], velocity[1]});
   return level + (to_edge <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
@@ -239,10 +239,9 @@ std::string FailureText<Dim>::likely_cause(std::size_t p, mpm::Fault fault) cons
     const std::string closed = compressed.empty() ? closed_pores(particles_) : compressed;
     return closed.empty() ? too_long : closed;
   }
-  const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);
-  const double own = static_cast<double>(velocity.norm());
-  const std::string towards =
-      Dim == 2 ? "" : " towards the " + heading(static_cast<double>(velocity[0]), static_cast<double>(velocity[1]));
+  const auto velocity = particles_.velocity.template get<Vector<double, Dim>>(p);
+  const double own = velocity.norm();
+  const std::string towards = Dim == 2 ? "" : " towards the " + heading(velocity[0], velocity[1]);
   if (fault == mpm::Fault::left_map) {
     return fmt::format("It moves at {} m/s{}. {}", rounded_text(own, 3), towards, terrain_ahead(p, fault)) +
            "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to remove such "
@@ -252,7 +251,7 @@ std::string FailureText<Dim>::likely_cause(std::size_t p, mpm::Fault fault) cons
   if (fault != mpm::Fault::left_domain) {
     return too_long;
   }
-  const double mean = std::sqrt(2.0 * static_cast<double>(sums_.kinetic / sums_.mass));
+  const double mean = std::sqrt(2.0 * (sums_.kinetic / sums_.mass));
   const std::string speeds = fmt::format("It moves at {} m/s{}, the slide at {} m/s on average. ", rounded_text(own, 3),
                                          towards, rounded_text(mean, 3));
   if (own > runaway * mean) {
@@ -262,13 +261,13 @@ std::string FailureText<Dim>::likely_cause(std::size_t p, mpm::Fault fault) cons
         speeds, step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
-  const int exit_axis = axis_of_exit<Dim>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
+  const int exit_axis = axis_of_exit<Dim>(particles_.position.template get<Vector<double, Dim>>(p), velocity,
                                           setup_.model.constraints.extent);
   if (Dim == 2) {
     return too_far + "; widen them in its direction.";
   }
   if (exit_axis == Dim - 1) {
-    return too_far + (velocity[exit_axis] > Real(0) ? "; widen them upwards." : "; widen them downwards.");
+    return too_far + (velocity[exit_axis] > 0.0 ? "; widen them upwards." : "; widen them downwards.");
   }
   return too_far + ". " + terrain_ahead(p, fault) + (setup_.site.ground ? "" : "Widen [grid] that way.");
 }
@@ -292,8 +291,8 @@ std::string FailureText<Dim>::of_energy(double energy, double fraction) const {
       "{:g} %). The fastest particle, {}, moves at {} m/s, the slide at {} m/s on average. {}",
       energy, Dim == 2 ? " per m of width" : "", 100.0 * fraction, 100.0 * setup_.parameters.guards.energy_growth,
       name_of(fastest).substr(std::string("particle ").size()),
-      rounded_text(static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()), 3),
-      rounded_text(std::sqrt(2.0 * static_cast<double>(sums_.kinetic / sums_.mass)), 3), cause);
+      rounded_text(particles_.velocity.template get<Vector<double, Dim>>(fastest).norm(), 3),
+      rounded_text(std::sqrt(2.0 * (sums_.kinetic / sums_.mass)), 3), cause);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                           \

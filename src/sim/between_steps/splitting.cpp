@@ -17,16 +17,16 @@ void halve(mpm::Particles<Dim>& particles, std::size_t p) {
   for (typename mpm::Particles<Dim>::Scalar* field :
        {&particles.mass, &particles.volume, &particles.initial_volume, &particles.seeped_water}) {
     if (field->is_kept()) {
-      (*field)(p) *= Real(0.5);
+      (*field)(p) *= 0.5;
     }
   }
 }
 
 // Change of velocity over a distance, by the affine velocity of APIC.
 template <int Dim>
-Vector<Real, Dim> affine_change(const mpm::Particles<Dim>& particles, std::size_t p,
-                                const Vector<Real, Dim>& distance) {
-  Vector<Real, Dim> change = Vector<Real, Dim>::Zero();
+Vector<double, Dim> affine_change(const mpm::Particles<Dim>& particles, std::size_t p,
+                                  const Vector<double, Dim>& distance) {
+  Vector<double, Dim> change = Vector<double, Dim>::Zero();
   for (int b = 0; particles.affine_velocity.is_kept() && b < Dim; ++b) {
     for (int a = 0; a < Dim; ++a) {
       change[a] += particles.affine_velocity(p, b * Dim + a) * distance[b];
@@ -37,8 +37,8 @@ Vector<Real, Dim> affine_change(const mpm::Particles<Dim>& particles, std::size_
 
 // Moves a half. Its initial position remains that of the particle before.
 template <int Dim>
-void move(mpm::Particles<Dim>& particles, std::size_t p, const Vector<Real, Dim>& position,
-          const Vector<Real, Dim>& change_of_velocity) {
+void move(mpm::Particles<Dim>& particles, std::size_t p, const Vector<double, Dim>& position,
+          const Vector<double, Dim>& change_of_velocity) {
   for (int a = 0; a < Dim; ++a) {
     particles.displacement(p, a) += position[a] - particles.position(p, a);
     particles.position(p, a) = position[a];
@@ -52,29 +52,29 @@ template <int Dim>
 std::optional<Split<Dim>> split_of(const Model<Dim>& model, const Slide<Dim>& slide, std::size_t particle) {
   const mpm::Particles<Dim>& particles = slide.particles;
   const auto body = static_cast<std::size_t>(particles.body(particle));
-  const Real half_size = model.motion.sizes.half(body);
+  const double half_size = model.motion.sizes.half(body);
   const auto axis = mpm::longest_axis<Dim>(mpm::surface_stretch_of<Dim>(particles, particle));
   const bool is_torn = particles.volume(particle) > mpm::torn_volume * particles.initial_volume(particle);
   if (is_torn || !mpm::is_too_long(axis.stretch, half_size)) {
     return {};
   }
   Split<Dim> split{particle, {}, axis.direction};
-  const Vector<Real, Dim - 1> quarter = Real(0.5) * half_size * slide.grid.cell() * axis.stretch * axis.direction;
-  const auto position = particles.position.template get<Vector<Real, Dim>>(particle);
-  const auto height_of_ground = [&](const Vector<Real, Dim>& place) {
-    return model.ground->height(place.template head<Dim - 1>().template cast<double>(), body);
+  const Vector<double, Dim - 1> quarter = 0.5 * half_size * slide.grid.cell() * axis.stretch * axis.direction;
+  const auto position = particles.position.template get<Vector<double, Dim>>(particle);
+  const auto height_of_ground = [&](const Vector<double, Dim>& place) {
+    return model.ground->height(place.template head<Dim - 1>(), body);
   };
-  const Real above = position[Dim - 1] - static_cast<Real>(height_of_ground(position));
+  const double above = position[Dim - 1] - height_of_ground(position);
   for (std::size_t side = 0; side < 2; ++side) {
-    Vector<Real, Dim>& place = split.positions[side];
+    Vector<double, Dim>& place = split.positions[side];
     place = position;
-    place.template head<Dim - 1>() += side == 0 ? Vector<Real, Dim - 1>(-quarter) : quarter;
-    if (!model.ground->is_known(place.template head<Dim - 1>().template cast<double>())) {
+    place.template head<Dim - 1>() += side == 0 ? Vector<double, Dim - 1>(-quarter) : quarter;
+    if (!model.ground->is_known(place.template head<Dim - 1>())) {
       return {};
     }
-    place[Dim - 1] = static_cast<Real>(height_of_ground(place)) + above;
+    place[Dim - 1] = height_of_ground(place) + above;
     for (int a = 0; a < Dim; ++a) {
-      if (!(place[a] >= Real(0) && place[a] <= model.constraints.extent[a])) {
+      if (!(place[a] >= 0.0 && place[a] <= model.constraints.extent[a])) {
         return {};
       }
     }
@@ -85,11 +85,12 @@ std::optional<Split<Dim>> split_of(const Model<Dim>& model, const Slide<Dim>& sl
 // Energy gained by splitting [J]: halves on curved ground are higher or lower than the particle, and APIC's affine
 // velocity becomes a difference of their velocities.
 template <int Dim>
-Real energy_gained(const Vector<Real, Dim>& gravity, const mpm::Particles<Dim>& particles, const Split<Dim>& split) {
-  const Real half_mass = Real(0.5) * particles.mass(split.particle);
-  const auto position = particles.position.template get<Vector<Real, Dim>>(split.particle);
-  const Vector<Real, Dim> displaced = (split.positions[0] - position) + (split.positions[1] - position);
-  const Vector<Real, Dim> apart = affine_change(particles, split.particle, split.half_way());
+double energy_gained(const Vector<double, Dim>& gravity, const mpm::Particles<Dim>& particles,
+                     const Split<Dim>& split) {
+  const double half_mass = 0.5 * particles.mass(split.particle);
+  const auto position = particles.position.template get<Vector<double, Dim>>(split.particle);
+  const Vector<double, Dim> displaced = (split.positions[0] - position) + (split.positions[1] - position);
+  const Vector<double, Dim> apart = affine_change(particles, split.particle, split.half_way());
   return half_mass * (apart.squaredNorm() - gravity.dot(displaced));
 }
 
@@ -118,7 +119,7 @@ std::vector<Split<Dim>> splits_due(const Setup<Dim>& setup, const Slide<Dim>& sl
 }
 
 template <int Dim>
-void split(const Setup<Dim>& setup, const std::vector<Split<Dim>>& due, Slide<Dim>& slide, Real& energy) {
+void split(const Setup<Dim>& setup, const std::vector<Split<Dim>>& due, Slide<Dim>& slide, double& energy) {
   mpm::Particles<Dim>& particles = slide.particles;
   const std::size_t first = particles.append(due.size());
   for (std::size_t k = 0; k < due.size(); ++k) {
@@ -132,8 +133,8 @@ void split(const Setup<Dim>& setup, const std::vector<Split<Dim>>& due, Slide<Di
     }
     particles.id(other) = slide.next_id++;
     particles.parent_id(other) = particles.id(p);
-    const Vector<Real, Dim> change = affine_change(particles, p, due[k].half_way());
-    move(particles, p, due[k].positions[0], Vector<Real, Dim>(-change));
+    const Vector<double, Dim> change = affine_change(particles, p, due[k].half_way());
+    move(particles, p, due[k].positions[0], Vector<double, Dim>(-change));
     move(particles, other, due[k].positions[1], change);
   }
   slide.split_count += static_cast<std::int64_t>(due.size());
@@ -156,9 +157,9 @@ std::string split_warning(const Setup<Dim>& setup, const Slide<Dim>& slide, doub
       setup.parameters.mechanics.split_limit);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                 \
-  template std::vector<Split<Dim>> splits_due<Dim>(const Setup<Dim>&, const Slide<Dim>&);          \
-  template void split<Dim>(const Setup<Dim>&, const std::vector<Split<Dim>>&, Slide<Dim>&, Real&); \
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                   \
+  template std::vector<Split<Dim>> splits_due<Dim>(const Setup<Dim>&, const Slide<Dim>&);            \
+  template void split<Dim>(const Setup<Dim>&, const std::vector<Split<Dim>>&, Slide<Dim>&, double&); \
   template std::string split_warning<Dim>(const Setup<Dim>&, const Slide<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -34,10 +34,10 @@ inline constexpr std::int64_t split_interval = 10;  // steps between checks
 template <int Dim>
 struct Split {
   std::size_t particle = 0;  // in memory
-  std::array<Vector<Real, Dim>, 2> positions;
-  Vector<Real, Dim - 1> direction;  // along which it is halved
+  std::array<Vector<double, Dim>, 2> positions;
+  Vector<double, Dim - 1> direction;  // along which it is halved
 
-  [[nodiscard]] Vector<Real, Dim> half_way() const { return Real(0.5) * (positions[1] - positions[0]); }
+  [[nodiscard]] Vector<double, Dim> half_way() const { return 0.5 * (positions[1] - positions[0]); }
 };
 
 // Particles to be split, by id. The limit admits those of smallest id.
@@ -46,7 +46,7 @@ template <int Dim>
 
 // Splits particles; the new ones are last in memory. Adds the energy gained to `energy` [J].
 template <int Dim>
-void split(const Setup<Dim>& setup, const std::vector<Split<Dim>>& due, Slide<Dim>& slide, Real& energy);
+void split(const Setup<Dim>& setup, const std::vector<Split<Dim>>& due, Slide<Dim>& slide, double& energy);
 
 // Warning that mechanics.split_limit prevents further splitting; empty if it does not.
 template <int Dim>

@@ -24,7 +24,7 @@ void add_bodies_on_lower_ground(const Simulation<Dim>& simulation, const std::ve
   for (std::size_t p = 0; p < particles.size(); ++p) {
     Vector<double, Dim - 1> place;
     for (int a = 0; a + 1 < Dim; ++a) {
-      place[a] = static_cast<double>(particles.position(p, a));
+      place[a] = particles.position(p, a);
     }
     double& most = lowered[static_cast<std::size_t>(particles.body(p))];
     most = std::max(most, model.ground->terrain().height(place) - model.ground->height(place));
@@ -53,7 +53,7 @@ void add_steep_ground(const Simulation<Dim>& simulation, const Raster& terrain, 
   for (std::size_t p = 0; p < particles.size(); ++p) {
     double squares = 0.0;
     for (int a = 0; a + 1 < Dim; ++a) {
-      squares += std::pow(static_cast<double>(particles.ground_slope(p, a)), 2);
+      squares += std::pow(particles.ground_slope(p, a), 2);
     }
     at_start = std::max(at_start, std::sqrt(squares));
   }
@@ -66,7 +66,7 @@ void add_steep_ground(const Simulation<Dim>& simulation, const Raster& terrain, 
       bool is_inside = terrain.at(column, static_cast<int>(row)) < top;
       for (int a = 0; a + 1 < Dim; ++a) {
         place[a] = at[static_cast<std::size_t>(a)] - model.origin[a];
-        is_inside = is_inside && place[a] >= 0.0 && place[a] <= static_cast<double>(model.constraints.extent[a]);
+        is_inside = is_inside && place[a] >= 0.0 && place[a] <= model.constraints.extent[a];
       }
       if (is_inside) {
         const double slope = model.ground->gradient(place, 0.0).norm();

@@ -154,11 +154,7 @@ class CrestSearch {
   // Ground of cells of a size, without a limit of slopes.
   [[nodiscard]] Ground columns_of(double cell) const {
     const std::shared_ptr<const terrain::Surface<Dim>> terrain(model_.ground, &model_.ground->terrain());
-    return {terrain,
-            cell,
-            model_.constraints.extent.template head<Dim - 1>().template cast<double>(),
-            model_.motion.sizes,
-            model_.motion.width,
+    return {terrain, cell, model_.constraints.extent.template head<Dim - 1>(), model_.motion.sizes, model_.motion.width,
             HUGE_VAL};
   }
 
@@ -190,7 +186,7 @@ class CrestSearch {
   [[nodiscard]] Crest crest_at(int column, int row) const {
     const double x = terrain_.x_of(column), y = terrain_.y_of(row);
     const Point point = relative(x, y);
-    const auto extent = model_.constraints.extent.template head<Dim - 1>().template cast<double>();
+    const auto extent = model_.constraints.extent.template head<Dim - 1>();
     if (!(terrain_.at(column, row) < top_) || (point.array() < 0.0).any() || (point.array() > extent.array()).any()) {
       return {};
     }

@@ -33,6 +33,7 @@ struct MapCell {
   double max_speed = none;                                      // [m/s]
   double max_momentum_flux = none;                              // [m3/s2]
   double max_pressure = none;                                   // [Pa]
+  double max_pressure_time = none;                              // [s]
   double arrival_time = none;                                   // [s]
   double max_basal_temperature = none;                          // [C]
   double max_melt = 0.0;                                        // depth of water [m]
@@ -61,7 +62,9 @@ struct MapCell {
     raise(max_melt, thickness_of(sums.water, area));
     if (thickness > arrival_thickness) {
       raise(max_speed, speed_now);
-      raise(max_pressure, dynamic_pressure(sums.mass / sums.volume, speed_now));
+      if (raise(max_pressure, dynamic_pressure(sums.mass / sums.volume, speed_now))) {
+        max_pressure_time = time;
+      }
       if (std::isnan(arrival_time)) {
         arrival_time = time;
       }
@@ -73,10 +76,11 @@ struct MapCell {
   }
 
  private:
-  static void raise(double& record, double value) {
-    if (!(record >= value)) {
-      record = value;
-    }
+  // Returns true if the value exceeds the record, which it then becomes.
+  static bool raise(double& record, double value) {
+    const bool exceeds = !(record >= value);
+    record = exceeds ? value : record;
+    return exceeds;
   }
 };
 

@@ -103,7 +103,7 @@ Raster ground_of_cells(const config::Case& parameters, const config::Site& site,
   raster.rows = grid.rows;
   raster.crs = grid.crs;
   raster.values.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), std::nan(""));
-  const Vector<double, 2> origin = model.origin.head<2>(), extent = model.constraints.extent.head<2>().cast<double>();
+  const Vector<double, 2> origin = model.origin.head<2>(), extent = model.constraints.extent.head<2>();
   parallel_for(static_cast<std::size_t>(grid.rows), [&](std::size_t row) {
     const int j = static_cast<int>(row);
     for (int i = 0; i < grid.columns; ++i) {

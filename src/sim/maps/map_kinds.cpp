@@ -17,6 +17,8 @@ const std::vector<MapKind>& map_kinds() {
        "maximum dynamic pressure: density of the column times depth-averaged speed squared, while thicker than "
        "maps.arrival_thickness",
        [](const MapCell& c) { return c.max_pressure; }},
+      {"max_pressure_time", "s", "time when the dynamic pressure was largest",
+       [](const MapCell& c) { return c.max_pressure_time; }},
       {"arrival_time", "s", "time when the thickness first exceeded maps.arrival_thickness",
        [](const MapCell& c) { return c.arrival_time; }},
       {"elevation_change", "m", "change in elevation of the surface since t = 0: thickness minus thickness at t = 0",

@@ -13,13 +13,13 @@ NamedNumbers base_table(const Simulation<Dim>& simulation) {
   if (columns == nullptr) {
     return table;
   }
-  const auto add = [&](const char* name, Real number) { table[name].push_back(static_cast<double>(number)); };
+  const auto add = [&](const char* name, double number) { table[name].push_back(number); };
   for (const band::BasalSegment<Dim>& segment : columns->segments()) {
     const physics::BandMeans means = columns->current_means(segment);
-    const Real* slide = segment.column.temperature + physics::ColumnCells::ground;
+    const double* slide = segment.column.temperature + physics::ColumnCells::ground;
     for (int a = 0; a < 3; ++a) {
-      table["position_m"].push_back(
-          a < Dim ? static_cast<double>(segment.position[a]) + simulation.model().origin[std::min(a, Dim - 1)] : 0.0);
+      table["position_m"].push_back(a < Dim ? segment.position[a] + simulation.model().origin[std::min(a, Dim - 1)]
+                                            : 0.0);
     }
     add("area_m2", segment.area);
     add("thickness_m", segment.column.thickness);

@@ -15,37 +15,37 @@ void add_band(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, Hist
   const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
   if (const auto* columns = simulation.band_columns()) {
     const band::BaseMeans base = columns->means();
-    add("band_temperature_C", static_cast<double>(base.temperature));
-    add("band_saturation", static_cast<double>(base.saturation));
-    add("band_pore_pressure_Pa", static_cast<double>(base.pore_pressure));
-    add("band_normal_pressure_Pa", static_cast<double>(base.load));
-    add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
-    add("band_thickness_m", static_cast<double>(base.thickness));
-    add("band_max_temperature_C", static_cast<double>(base.max_temperature));
-    add("band_max_wet_temperature_C", static_cast<double>(base.max_wet_temperature));
-    add("band_dry_fraction", static_cast<double>(base.dry_fraction));
-    add("band_max_pressure_ratio", static_cast<double>(base.max_pressure_ratio));
+    add("band_temperature_C", base.temperature);
+    add("band_saturation", base.saturation);
+    add("band_pore_pressure_Pa", base.pore_pressure);
+    add("band_normal_pressure_Pa", base.load);
+    add("band_shear_Pa", simulation.contact().shear_force / simulation.contact().area);
+    add("band_thickness_m", base.thickness);
+    add("band_max_temperature_C", base.max_temperature);
+    add("band_max_wet_temperature_C", base.max_wet_temperature);
+    add("band_dry_fraction", base.dry_fraction);
+    add("band_max_pressure_ratio", base.max_pressure_ratio);
     return;
   }
-  const double mass = sums.band_mass > Real(0) ? static_cast<double>(sums.band_mass) : std::nan("");
-  add("band_temperature_C", static_cast<double>(sums.band_temperature) / mass);
-  add("band_saturation", static_cast<double>(sums.band_saturation) / mass);
-  add("band_pore_pressure_Pa", static_cast<double>(sums.band_pore_pressure) / mass);
+  const double mass = sums.band_mass > 0.0 ? sums.band_mass : std::nan("");
+  add("band_temperature_C", sums.band_temperature / mass);
+  add("band_saturation", sums.band_saturation / mass);
+  add("band_pore_pressure_Pa", sums.band_pore_pressure / mass);
 }
 
 // Adds the heat and water balances of band columns; returns the heat held by the columns minus the heat supplied.
 template <int Dim, class Add>
-Real add_columns(const Simulation<Dim>& simulation, const Add& add) {
+double add_columns(const Simulation<Dim>& simulation, const Add& add) {
   const auto* columns = simulation.band_columns();
   if (columns == nullptr) {
-    return Real(0);
+    return 0.0;
   }
   const band::ColumnSums sums = columns->sums();
   const band::ColumnLedger& budget = columns->budget();
-  const Real heat_in = budget.created_heat + budget.body_heat + budget.ground_heat;
-  const Real heat_out = budget.vented_heat + budget.steam_heat + budget.left_heat;
-  const Real water_in = budget.created_water + budget.body_water;
-  const Real water_out = budget.vented_water + budget.steam + budget.left_water;
+  const double heat_in = budget.created_heat + budget.body_heat + budget.ground_heat;
+  const double heat_out = budget.vented_heat + budget.steam_heat + budget.left_heat;
+  const double water_in = budget.created_water + budget.body_water;
+  const double water_out = budget.vented_water + budget.steam + budget.left_water;
   add("base_area_m2", sums.area);
   add("column_heat_J", sums.heat);
   add("column_intake_J", heat_in);
@@ -73,7 +73,7 @@ void add_bed(const Simulation<Dim>& simulation, const Add& add) {
   }
   const auto sums = bed->sums();
   const Budget<Dim>& budget = simulation.budget();
-  const Real entrained = sums.loose + budget.bed_joined_mass;
+  const double entrained = sums.loose + budget.bed_joined_mass;
   add("entrained_mass_kg", entrained);
   add("entrained_volume_m3", entrained / bed->material().density);
   add("entrained_work_J", budget.bed_work);
@@ -87,10 +87,11 @@ void add_bed(const Simulation<Dim>& simulation, const Add& add) {
 template <int Dim>
 void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, double width, HistoryRow& row) {
   const Budget<Dim>& budget = simulation.budget();
-  const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
-  const Real strain = budget.stress_work - budget.plastic;
-  const Real stored = sums.kinetic + sums.potential + strain;
-  const Real dissipated = budget.plastic + budget.viscous + budget.damping + budget.friction_work + budget.contact_loss;
+  const auto add = [&](const char* name, double value) { row.emplace_back(name, width * value); };
+  const double strain = budget.stress_work - budget.plastic;
+  const double stored = sums.kinetic + sums.potential + strain;
+  const double dissipated =
+      budget.plastic + budget.viscous + budget.damping + budget.friction_work + budget.contact_loss;
   add("kinetic_J", sums.kinetic);
   add("potential_J", sums.potential);
   add("strain_J", strain);
@@ -115,7 +116,7 @@ void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, do
   add("mechanical_residual_J", stored + dissipated + budget.pore_work - budget.frame_work - budget.numerical +
                                    budget.left_mechanical + budget.bed_work - budget.joined_mechanical -
                                    budget.initial_mechanical);
-  const Real in_columns = add_columns(simulation, add);
+  const double in_columns = add_columns(simulation, add);
   add("thermal_residual_J", in_columns + sums.sensible + sums.latent - budget.initial_thermal - budget.friction_heat -
                                 budget.boundary_heat - budget.band_rescale - budget.advection - budget.capacity_heat -
                                 budget.porosity_heat + budget.drained_heat + budget.left_thermal -
@@ -137,13 +138,12 @@ void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, do
     add("removed_mass_kg", budget.removed_mass);
   }
   add_bed(simulation, add);
-  const Vector<Real, Dim> residual = sums.momentum + budget.left_momentum + budget.bed_impulse -
-                                     budget.joined_momentum - budget.initial_momentum - budget.gravity_impulse -
-                                     budget.ground_impulse - budget.constraint_impulse;
-  const auto add_vector = [&](const char* name, const char* unit, const Vector<Real, Dim>& value) {
+  const Vector<double, Dim> residual = sums.momentum + budget.left_momentum + budget.bed_impulse -
+                                       budget.joined_momentum - budget.initial_momentum - budget.gravity_impulse -
+                                       budget.ground_impulse - budget.constraint_impulse;
+  const auto add_vector = [&](const char* name, const char* unit, const Vector<double, Dim>& value) {
     for (int a = 0; a < Dim; ++a) {
-      row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit),
-                       width * static_cast<double>(value[a]));
+      row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit), width * value[a]);
     }
   };
   add_vector("momentum", "N_s", sums.momentum);
@@ -180,28 +180,28 @@ HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& fron
   row.emplace_back("time_s", simulation.time());
   row.emplace_back("step", static_cast<double>(simulation.step_number()));
   row.emplace_back("dt_s", simulation.last_step());
-  const auto mean = [&](Real sum) { return static_cast<double>(sum / sums.mass); };
+  const auto mean = [&](double sum) { return sum / sums.mass; };
   row.emplace_back("mean_velocity_m_s", mean(sums.momentum.norm()));
-  row.emplace_back("max_velocity_m_s", std::sqrt(static_cast<double>(sums.largest_speed2)));
+  row.emplace_back("max_velocity_m_s", std::sqrt(sums.largest_speed2));
   row.emplace_back("mean_displacement_m", mean(sums.displacement));
   row.emplace_back("front_position_m", front.position);
   row.emplace_back("runout_m", front.runout);
   add_band(simulation, sums, row);
   row.emplace_back("band_friction_coefficient",
-                   contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
+                   contact.area > 0.0 ? (contact.friction_area / contact.area) : std::nan(""));
   row.emplace_back("mean_plastic_strain", mean(sums.plastic_strain));
-  row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
-  row.emplace_back("dilation_fraction", static_cast<double>(sums.volume_change / sums.initial_volume));
+  row.emplace_back("dilation_volume_m3", width * sums.volume_change);
+  row.emplace_back("dilation_fraction", sums.volume_change / sums.initial_volume);
   const char* axes = Dim == 2 ? "xy" : "xyz";
-  const Vector<Real, Dim> weight = sums.mass * simulation.model().motion.gravity;
+  const Vector<double, Dim> weight = sums.mass * simulation.model().motion.gravity;
   // Before the first step, the ground carries the weight of the mass at rest.
   const bool is_carried = simulation.ground() != nullptr && parameters.mechanics.enabled;
-  const Vector<Real, Dim> force = simulation.step_number() == 0 && is_carried ? weight : contact.force;
+  const Vector<double, Dim> force = simulation.step_number() == 0 && is_carried ? weight : contact.force;
   for (int a = 0; a < Dim; ++a) {
-    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), width * static_cast<double>(force[a]));
+    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), width * force[a]);
   }
   for (int a = 0; a < Dim; ++a) {
-    row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]), width * static_cast<double>(force[a] - weight[a]));
+    row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]), width * (force[a] - weight[a]));
   }
   add_ledger(simulation, sums, width, row);
   return row;

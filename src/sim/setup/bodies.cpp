@@ -184,13 +184,13 @@ void require_apart(const config::Case& parameters, const std::vector<std::string
 // Geostatic normal stress and K0 in the axes of the ground below (of gravity if there is no ground). With slope shear,
 // if requested, the stress balances an infinite slope.
 template <int Dim>
-SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model<Dim>& model, const Seed<Dim>& seed,
-                                     double density, double poisson_ratio) {
-  SymmetricTensor<Real> stress = SymmetricTensor<Real>::Zero();
+SymmetricTensor<double> initial_stress(const config::Case& parameters, const Model<Dim>& model, const Seed<Dim>& seed,
+                                       double density, double poisson_ratio) {
+  SymmetricTensor<double> stress = SymmetricTensor<double>::Zero();
   if (parameters.mechanics.initial_stress != config::InitialStress::geostatic) {
     return stress;
   }
-  const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
+  const Vector<double, Dim> gravity = model.motion.gravity;
   Vector<double, Dim> up = -gravity;
   double cosine = 1.0;
   if (model.ground) {
@@ -219,7 +219,7 @@ SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model
   }
   const double components[6] = {full(0, 0), full(1, 1), full(2, 2), full(0, 1), full(1, 2), full(0, 2)};
   for (int c = 0; c < 6; ++c) {
-    stress[c] = static_cast<Real>(components[c]);
+    stress[c] = components[c];
   }
   return stress;
 }
@@ -333,22 +333,21 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     particles.material(p) = static_cast<std::int32_t>(material_of[static_cast<std::size_t>(seed.body)]);
     const Vector<double, Dim> position =
         starting_position(parameters, model, body, shapes[static_cast<std::size_t>(seed.body)], seed);
-    const Real width = model.motion.width.at(static_cast<Real>(position[0] - model.origin[0]));
-    particles.initial_volume(p) = particles.volume(p) = width * static_cast<Real>(seed.volume);
-    particles.temperature(p) = static_cast<Real>(initial_temperature(model, body, release, seed));
-    const Real saturation = model.band.with_heat_content(
+    const double width = model.motion.width.at(position[0] - model.origin[0]);
+    particles.initial_volume(p) = particles.volume(p) = width * seed.volume;
+    particles.temperature(p) = initial_temperature(model, body, release, seed);
+    const double saturation = model.band.with_heat_content(
         [&](const auto& content) { return content.curve.saturation(particles.temperature(p)); });
-    particles.porosity(p) = particles.initial_porosity(p) =
-        static_cast<Real>(initial_porosity(body, release, seed, static_cast<double>(saturation)));
-    particles.thermal_scaling(p) = Real(1);
-    const Real density = physics::mixture_density(model.motion.phases, particles.porosity(p), saturation);
+    particles.porosity(p) = particles.initial_porosity(p) = initial_porosity(body, release, seed, saturation);
+    particles.thermal_scaling(p) = 1.0;
+    const double density = physics::mixture_density(model.motion.phases, particles.porosity(p), saturation);
     particles.mass(p) = density * particles.volume(p);
     for (int a = 0; a < Dim; ++a) {
-      particles.position(p, a) = static_cast<Real>(position[a] - model.origin[a]);
-      particles.velocity(p, a) = static_cast<Real>(body.velocity[static_cast<std::size_t>(a)]);
+      particles.position(p, a) = position[a] - model.origin[a];
+      particles.velocity(p, a) = body.velocity[static_cast<std::size_t>(a)];
     }
-    const auto stress = initial_stress(parameters, model, seed, static_cast<double>(density),
-                                       parameters.materials.at(body.material).poisson_ratio);
+    const auto stress =
+        initial_stress(parameters, model, seed, density, parameters.materials.at(body.material).poisson_ratio);
     for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
       particles.stress(p, c) = stress[c];
     }

@@ -16,14 +16,14 @@ physics::ColumnModel<Curve> column_model(const config::Case& parameters, const p
   column.phases = phases;
   column.curve = curve;
   column.water_expansion = {parameters.phases.water_expansion_law, phases.water_expansion};
-  column.porosity = static_cast<Real>(material.porosity);
-  column.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
-  column.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
-  column.residual_stress = static_cast<Real>(pressure.residual_stress);
+  column.porosity = material.porosity;
+  column.hydraulic_conductivity = material.hydraulic_conductivity;
+  column.skeleton_compressibility = pressure.skeleton_compressibility;
+  column.residual_stress = pressure.residual_stress;
   column.at_frozen =
       pressure.frozen_rows == config::FrozenRows::vented ? physics::EndOfWater::vented : physics::EndOfWater::sealed;
   column.at_top = pressure.column_top;
-  column.water_to_steam_viscosity = static_cast<Real>(pressure.water_to_steam_viscosity);
+  column.water_to_steam_viscosity = pressure.water_to_steam_viscosity;
   column.latent = parameters.heat.latent;
   column.conduction = parameters.heat.conduction;
   column.seepage = pressure.seepage;
@@ -31,7 +31,7 @@ physics::ColumnModel<Curve> column_model(const config::Case& parameters, const p
   column.steam = parameters.heat.steam;
   column.ground_conductivity = phases.rock_conductivity;
   column.ground_capacity = phases.rock_density * phases.rock_heat_capacity;
-  column.ground_cell = static_cast<Real>(parameters.band.thickness.smallest()) / physics::ColumnCells::band;
+  column.ground_cell = parameters.band.thickness.smallest() / physics::ColumnCells::band;
   return column;
 }
 
@@ -45,21 +45,20 @@ band::ColumnsModel make_columns_model(const config::Case& parameters, const Mode
   columns.column = model.band.with_heat_content([&](const auto& content) -> band::AnyColumnModel {
     return column_model(parameters, model.motion.phases, content.curve, material);
   });
-  columns.body_temperature = static_cast<Real>(material.temperature);
-  columns.ground_temperature =
-      static_cast<Real>(std::isnan(band.ground_temperature) ? material.temperature : band.ground_temperature);
+  columns.body_temperature = material.temperature;
+  columns.ground_temperature = std::isnan(band.ground_temperature) ? material.temperature : band.ground_temperature;
   columns.density = model.band.with_heat_content([&](const auto& content) {
-    return physics::mixture_density(model.motion.phases, static_cast<Real>(material.porosity),
+    return physics::mixture_density(model.motion.phases, material.porosity,
                                     content.curve.saturation(columns.body_temperature));
   });
-  columns.load_time = static_cast<Real>(band.load_time);
+  columns.load_time = band.load_time;
   columns.growth = band.growth;
-  columns.grain_size = static_cast<Real>(band.grain_size);
-  columns.inertial_number = static_cast<Real>(band.inertial_number);
-  columns.growth_per_slip = static_cast<Real>(band.growth_per_slip);
-  columns.mixing_slip = static_cast<Real>(band.mixing_slip);
+  columns.grain_size = band.grain_size;
+  columns.inertial_number = band.inertial_number;
+  columns.growth_per_slip = band.growth_per_slip;
+  columns.mixing_slip = band.mixing_slip;
   columns.rock_density = model.motion.phases.rock_density;
-  columns.largest_thickness = static_cast<Real>(material.depth);
+  columns.largest_thickness = material.depth;
   return columns;
 }
 

@@ -38,9 +38,8 @@ double initial_temperature(const Model<Dim>& model, const config::Body& body, co
   if (!body.saturation.is_given()) {
     return initial_value(body.temperature, release, "temperature", seed);
   }
-  const auto saturation = static_cast<Real>(initial_value(body.saturation, release, "saturation", seed));
-  return static_cast<double>(
-      model.band.with_heat_content([&](const auto& content) { return content.curve.temperature(saturation); }));
+  const auto saturation = initial_value(body.saturation, release, "saturation", seed);
+  return model.band.with_heat_content([&](const auto& content) { return content.curve.temperature(saturation); });
 }
 
 // Ice fills the pores except for the liquid fraction.

@@ -33,7 +33,7 @@ mpm::BetweenBodies between_bodies(const config::Case& parameters, std::size_t bo
   between.layer_of_body.assign(bodies, 0);
   std::copy(layers.of_body.begin(), layers.of_body.end(), between.layer_of_body.begin());
   for (const double angle : layers.friction_angle) {
-    between.friction.push_back(static_cast<Real>(std::tan(radians(angle))));
+    between.friction.push_back(std::tan(radians(angle)));
   }
   for (std::size_t layer = 0; layer < layers.count; ++layer) {
     between.friction[layer * (layers.count + 1)] = mpm::rough;  // bonded bodies, while one of them is held
@@ -43,36 +43,36 @@ mpm::BetweenBodies between_bodies(const config::Case& parameters, std::size_t bo
 
 physics::Phases make_phases(const config::Phases& p) {
   physics::Phases phases;
-  phases.rock_density = static_cast<Real>(p.rock_density);
-  phases.ice_density = static_cast<Real>(p.ice_density);
-  phases.water_density = static_cast<Real>(p.water_density);
-  phases.rock_heat_capacity = static_cast<Real>(p.rock_heat_capacity);
-  phases.ice_heat_capacity = static_cast<Real>(p.ice_heat_capacity);
-  phases.water_heat_capacity = static_cast<Real>(p.water_heat_capacity);
-  phases.rock_conductivity = static_cast<Real>(p.rock_conductivity);
-  phases.ice_conductivity = static_cast<Real>(p.ice_conductivity);
-  phases.water_conductivity = static_cast<Real>(p.water_conductivity);
-  phases.rock_expansion = static_cast<Real>(p.rock_expansion);
-  phases.ice_expansion = static_cast<Real>(p.ice_expansion);
-  phases.water_expansion = static_cast<Real>(p.water_expansion);
-  phases.water_bulk_modulus = static_cast<Real>(p.water_bulk_modulus);
-  phases.latent_heat = static_cast<Real>(p.latent_heat);
-  phases.water_unit_weight = static_cast<Real>(p.water_unit_weight);
-  phases.ice_to_rock_density_ratio = static_cast<Real>(p.ice_to_rock_density_ratio);
+  phases.rock_density = p.rock_density;
+  phases.ice_density = p.ice_density;
+  phases.water_density = p.water_density;
+  phases.rock_heat_capacity = p.rock_heat_capacity;
+  phases.ice_heat_capacity = p.ice_heat_capacity;
+  phases.water_heat_capacity = p.water_heat_capacity;
+  phases.rock_conductivity = p.rock_conductivity;
+  phases.ice_conductivity = p.ice_conductivity;
+  phases.water_conductivity = p.water_conductivity;
+  phases.rock_expansion = p.rock_expansion;
+  phases.ice_expansion = p.ice_expansion;
+  phases.water_expansion = p.water_expansion;
+  phases.water_bulk_modulus = p.water_bulk_modulus;
+  phases.latent_heat = p.latent_heat;
+  phases.water_unit_weight = p.water_unit_weight;
+  phases.ice_to_rock_density_ratio = p.ice_to_rock_density_ratio;
   return phases;
 }
 
 physics::Strength strength_of(const config::Material& material, double cell) {
   const double of_slip = physics::softening_strain_of_slip(material.softening_slip, cell);
   const double softening_strain = material.softening_slip > 0.0 ? of_slip : material.softening_strain;
-  physics::Strength strength{.friction_angle = static_cast<Real>(material.friction_angle),
-                             .dilation_angle = static_cast<Real>(material.dilation_angle),
-                             .cohesion = static_cast<Real>(material.cohesion),
-                             .residual_cohesion = static_cast<Real>(material.residual_cohesion),
-                             .tension_cutoff = static_cast<Real>(material.tension_cutoff),
-                             .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+  physics::Strength strength{.friction_angle = material.friction_angle,
+                             .dilation_angle = material.dilation_angle,
+                             .cohesion = material.cohesion,
+                             .residual_cohesion = material.residual_cohesion,
+                             .tension_cutoff = material.tension_cutoff,
+                             .residual_friction_angle = material.residual_friction_angle};
   if (softening_strain > 0.0) {  // otherwise nothing softens
-    strength.softening_strain = static_cast<Real>(softening_strain);
+    strength.softening_strain = softening_strain;
   }
   return strength;
 }
@@ -84,17 +84,16 @@ double viscosity_time_of(const config::Material& material, const physics::Elasti
   if (!std::isnan(material.viscosity_time)) {
     return material.viscosity_time;
   }
-  const double wave_speed = std::sqrt(static_cast<double>(elastic.p_wave_modulus()) / parameters.phases.rock_density);
+  const double wave_speed = std::sqrt(elastic.p_wave_modulus() / parameters.phases.rock_density);
   return wave_speed > 0.0 ? material.viscosity_number * parameters.grid.cell / wave_speed : 0.0;
 }
 
 mpm::MaterialModel make_material(const config::Material& material, const config::Case& parameters) {
   mpm::MaterialModel model;
-  model.elastic = physics::Elastic::from_young_poisson(static_cast<Real>(material.youngs_modulus),
-                                                       static_cast<Real>(material.poisson_ratio));
+  model.elastic = physics::Elastic::from_young_poisson(material.youngs_modulus, material.poisson_ratio);
   model.gaps_close_first = material.gaps_close_first;
-  model.viscosity_time = static_cast<Real>(viscosity_time_of(material, model.elastic, parameters));
-  model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
+  model.viscosity_time = viscosity_time_of(material, model.elastic, parameters);
+  model.hydraulic_conductivity = material.hydraulic_conductivity;
   if (material.law == config::LawKind::mohr_coulomb && parameters.mechanisms.deformation) {
     const physics::Strength strength = strength_of(material, parameters.grid.cell);
     if (strength.residual_friction_angle < strength.friction_angle) {
@@ -114,7 +113,7 @@ void set_transfer(const config::Case& parameters, const Vector<double, Dim>& ori
   motion.shape = mechanics.shape_function;
   motion.transfer =
       mechanics.transfer == config::Transfer::apic ? mpm::TransferKind::apic : mpm::TransferKind::flip_pic;
-  motion.pic_fraction = static_cast<Real>(mechanics.pic_fraction);
+  motion.pic_fraction = mechanics.pic_fraction;
   motion.filter_order = mechanics.transfer == config::Transfer::fmpm ? mechanics.fmpm_order : 0;
   for (std::size_t a = 0; a < Dim; ++a) {
     const double length = parameters.grid.max[a] - origin[static_cast<int>(a)];
@@ -132,7 +131,7 @@ mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vec
   mpm::Constraints<Dim> constraints;
   for (std::size_t a = 0; a < Dim; ++a) {
     const int i = static_cast<int>(a);
-    constraints.extent[i] = static_cast<Real>(parameters.grid.max[a] - origin[i]);
+    constraints.extent[i] = parameters.grid.max[a] - origin[i];
     for (std::size_t side = 0; side < 2; ++side) {
       constraints.faces[2 * a + side] = parameters.grid.boundary[2 * a + side];
     }
@@ -145,11 +144,11 @@ mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vec
     mpm::RigidFrame<Dim> rigid;
     for (std::size_t a = 0; a < Dim; ++a) {
       const int i = static_cast<int>(a);
-      rigid.lower[i] = static_cast<Real>(frame.min[a] - zero[i]);
-      rigid.upper[i] = static_cast<Real>(frame.max[a] - zero[i]);
+      rigid.lower[i] = frame.min[a] - zero[i];
+      rigid.upper[i] = frame.max[a] - zero[i];
     }
     rigid.axis = frame.axis == "x" ? 0 : frame.axis == "y" ? 1 : 2;
-    rigid.velocity = static_cast<Real>(frame.velocity);
+    rigid.velocity = frame.velocity;
     constraints.frames.push_back(rigid);
   }
   return constraints;
@@ -164,20 +163,19 @@ terrain::BasalLaw make_basal_law(const config::Case& parameters) {
   }
   law.clamp = basal.clamp;
   law.cap_pressure = basal.cap_pressure;
-  law.heat_fraction = static_cast<Real>(basal.heat_fraction);
-  law.gravity = static_cast<Real>(parameters.general.gravity);
+  law.heat_fraction = basal.heat_fraction;
+  law.gravity = parameters.general.gravity;
   return law;
 }
 
 band::AnyHeatContent make_heat_content(const config::Case& parameters, const physics::Phases& phases) {
   const config::Freezing& freezing = parameters.freezing;
-  const Real reference = static_cast<Real>(freezing.reference_temperature);
+  const double reference = freezing.reference_temperature;
   const bool latent = parameters.heat.latent;
   if (freezing.curve == config::CurveKind::linear) {
-    return physics::HeatContent<physics::LinearCurve>{phases, {reference, static_cast<Real>(freezing.slope)}, latent};
+    return physics::HeatContent<physics::LinearCurve>{phases, {reference, freezing.slope}, latent};
   }
-  return physics::HeatContent<physics::PowerLawCurve>{
-      phases, {reference, static_cast<Real>(freezing.exponent)}, latent};
+  return physics::HeatContent<physics::PowerLawCurve>{phases, {reference, freezing.exponent}, latent};
 }
 
 void set_water_balance(const config::Case& parameters, band::BandPhysics& band) {
@@ -185,10 +183,10 @@ void set_water_balance(const config::Case& parameters, band::BandPhysics& band) 
   band.frozen_rows = pressure.frozen_rows;
   band.ice_presses = pressure.frozen == config::FrozenPressure::ice_pressure;
   band.melt_contracts = pressure.melt_contraction;
-  band.residual_stress = static_cast<Real>(pressure.residual_stress);
-  band.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
+  band.residual_stress = pressure.residual_stress;
+  band.skeleton_compressibility = pressure.skeleton_compressibility;
   band.water.law = parameters.phases.water_expansion_law;
-  band.water.constant = static_cast<Real>(parameters.phases.water_expansion);
+  band.water.constant = parameters.phases.water_expansion;
   band.conservative_advection =
       parameters.heat.enabled && parameters.heat.advection_form == config::AdvectionForm::conservative;
   band.rescaling_mixes =
@@ -197,18 +195,18 @@ void set_water_balance(const config::Case& parameters, band::BandPhysics& band) 
 
 template <int Dim>
 band::BandModel<Dim> make_band(const config::Case& parameters, const mpm::MotionModel<Dim>& motion,
-                               const Vector<Real, Dim>& extent) {
+                               const Vector<double, Dim>& extent) {
   band::BandModel<Dim> band;
   band.phases = motion.phases;
   band.heat_content = make_heat_content(parameters, band.phases);
-  band.reference_temperature = static_cast<Real>(parameters.freezing.reference_temperature);
+  band.reference_temperature = parameters.freezing.reference_temperature;
   band.heat = parameters.heat.enabled;
   band.conduction = parameters.heat.conduction;
   band.advection = parameters.heat.advection && parameters.pressure.enabled;
   band.at_faces.extent = extent;
   for (std::size_t f = 0; f < 2 * Dim; ++f) {
     const config::HeatBoundary& face = parameters.heat.boundary[f];
-    band.at_faces.faces[f] = {face.kind, static_cast<Real>(face.value)};
+    band.at_faces.faces[f] = {face.kind, face.value};
   }
   band.region = parameters.band.region;
   band.secant_capacity = parameters.heat.update == config::HeatUpdate::enthalpy;
@@ -219,10 +217,10 @@ band::BandModel<Dim> make_band(const config::Case& parameters, const mpm::Motion
   band.volumetric_term = parameters.pressure.volumetric_term;
   band.seepage = parameters.pressure.seepage;
   band.published_seepage = parameters.pressure.seepage_scaling == config::SeepageScaling::published;
-  band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? Real(1) : Real(-1);
+  band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? 1.0 : -1.0;
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
-  band.gravity = static_cast<Real>(parameters.general.gravity);
+  band.gravity = parameters.general.gravity;
   set_water_balance(parameters, band);
   for (const auto& material : motion.materials) {
     band.hydraulic_conductivity.push_back(material.hydraulic_conductivity);
@@ -300,8 +298,8 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
     model.motion.width = mpm::SectionWidth(parameters.general.width.table, model.origin[0]);
   }
   model.motion.gravity.setZero();
-  model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));
-  model.motion.gravity[Dim - 1] = static_cast<Real>(-parameters.general.gravity * std::cos(tilt));
+  model.motion.gravity[0] = parameters.general.gravity * std::sin(tilt);
+  model.motion.gravity[Dim - 1] = -parameters.general.gravity * std::cos(tilt);
   model.motion.phases = make_phases(parameters.phases);
   model.motion.effective_stress = parameters.mechanics.effective_stress && parameters.pressure.enabled;
   model.motion.lubrication = parameters.mechanisms.lubrication;
@@ -309,15 +307,15 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
     model.material_names.push_back(name);
     model.motion.materials.push_back(make_material(material, parameters));
     const bool is_free = material.gaps_close_first && physics::gap_is_free(strength_of(material, parameters.grid.cell));
-    model.free_gaps.push_back(is_free ? Real(1) : Real(0));
+    model.free_gaps.push_back(is_free ? 1.0 : 0.0);
   }
   for (const auto& [name, body] : parameters.bodies) {
     model.body_names.push_back(name);
-    model.motion.sizes.add(Real(1) / static_cast<Real>(2 * body.particles_per_axis));
+    model.motion.sizes.add(1.0 / static_cast<double>(2 * body.particles_per_axis));
   }
   if (parameters.bed.law != config::BedLaw::none) {  // entrained material is a separate body
     model.body_names.emplace_back("bed");
-    model.motion.sizes.add(Real(1) / static_cast<Real>(2 * parameters.bed.particles_per_axis));
+    model.motion.sizes.add(1.0 / static_cast<double>(2 * parameters.bed.particles_per_axis));
   }
   model.constraints = make_constraints<Dim>(parameters, model.origin);
   model.release_times = release_times(parameters, site, model.body_names.size());
@@ -330,21 +328,20 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.reads_mass = model.contact.pore_pressure || model.contact.law.depends_on_mass();
-  model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
+  model.contact.mass_damping = parameters.mechanics.mass_damping;
   model.contact.band_columns = parameters.band.model == config::BandKind::columns;
   model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim>(parameters, model.motion, model.constraints.extent);
   if (parameters.bed.law != config::BedLaw::none) {
     const auto saturation = model.band.with_heat_content(
-        [&](const auto& content) { return content.curve.saturation(static_cast<Real>(parameters.bed.temperature)); });
-    model.bed_density =
-        physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
+        [&](const auto& content) { return content.curve.saturation(parameters.bed.temperature); });
+    model.bed_density = physics::mixture_density(model.band.phases, parameters.bed.porosity, saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
   if (const auto terrain = make_terrain(parameters, site, model)) {
     model.ground = std::make_shared<terrain::FollowingGround<Dim>>(
-        terrain, parameters.grid.cell, model.constraints.extent.template head<Dim - 1>().template cast<double>(),
-        model.motion.sizes, model.motion.width, std::tan(radians(parameters.grid.steepest)));
+        terrain, parameters.grid.cell, model.constraints.extent.template head<Dim - 1>(), model.motion.sizes,
+        model.motion.width, std::tan(radians(parameters.grid.steepest)));
   }
   model.substrates = make_substrates(parameters, site);
   return model;

@@ -29,9 +29,9 @@ struct Model {
   std::shared_ptr<const terrain::FollowingGround<Dim>> ground;  // null if there is none
   std::shared_ptr<const terrain::Substrates> substrates;        // null if the ground is of one kind
   std::optional<terrain::Polyline> profile;                     // ground, if it is a line over x
-  std::vector<Real> free_gaps;                          // by material: 1: gaps are stress-free, 0: they carry stress
+  std::vector<double> free_gaps;                        // by material: 1: gaps are stress-free, 0: they carry stress
   bool splits_stretched = false;                        // particles, along the ground (mpm/splitting.hpp)
-  Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0 if there is none
+  double bed_density = 0;                               // of the erodible bed [kg/m3]; 0 if there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is the entrained bed material
   std::vector<double> release_times;                    // by body [s]; empty: all bodies move from the start
 };
@@ -44,8 +44,7 @@ mpm::Mapping mapping_of(const Model<Dim>& model) {
 // Background grid without particles.
 template <int Dim>
 mpm::SparseGrid<Dim> make_grid(const config::Case& parameters, const Model<Dim>& model) {
-  return mpm::SparseGrid<Dim>(static_cast<Real>(parameters.grid.cell), model.between_bodies.layer_of_body,
-                              mapping_of(model));
+  return mpm::SparseGrid<Dim>(parameters.grid.cell, model.between_bodies.layer_of_body, mapping_of(model));
 }
 
 // site: contents of the map files of the case; required if the terrain is a DEM.

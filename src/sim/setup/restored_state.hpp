@@ -12,7 +12,7 @@ namespace thawslide::sim {
 
 // True if a position [m] lies in the domain or within `margin` [m] of it. extent: the domain's upper corner.
 template <int Dim>
-bool is_about_domain(const Vector<Real, Dim>& position, const Vector<Real, Dim>& extent, Real margin) {
+bool is_about_domain(const Vector<double, Dim>& position, const Vector<double, Dim>& extent, double margin) {
   for (int a = 0; a < Dim; ++a) {
     if (!(position[a] >= -margin && position[a] <= extent[a] + margin)) {
       return false;
@@ -38,8 +38,8 @@ void require_sound(const mpm::Particles<Dim>& particles, const Model<Dim>& model
           fmt::format("the particle in row {} has the id {}; allowed: from {} to {}", p, id, before + 1, next_id - 1));
     }
     before = id;
-    const auto position = particles.position.template get<Vector<Real, Dim>>(p);
-    if (!is_about_domain<Dim>(position, model.constraints.extent, Real(0))) {
+    const auto position = particles.position.template get<Vector<double, Dim>>(p);
+    if (!is_about_domain<Dim>(position, model.constraints.extent, 0.0)) {
       state.fail(fmt::format("particle {} lies outside the domain", id));
     }
     if (!is_number_of(particles.body(p), model.body_names) ||
@@ -47,7 +47,7 @@ void require_sound(const mpm::Particles<Dim>& particles, const Model<Dim>& model
       state.fail(fmt::format("particle {} has the body {} and the material {}, which the case does not have", id,
                              particles.body(p), particles.material(p)));
     }
-    if (!(particles.mass(p) > Real(0) && particles.volume(p) > Real(0) && std::isfinite(particles.mass(p)) &&
+    if (!(particles.mass(p) > 0.0 && particles.volume(p) > 0.0 && std::isfinite(particles.mass(p)) &&
           std::isfinite(particles.volume(p)))) {
       state.fail(fmt::format("particle {} has a mass of {} kg and a volume of {} m3", id, particles.mass(p),
                              particles.volume(p)));

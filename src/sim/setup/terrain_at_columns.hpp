@@ -15,20 +15,18 @@ band::OfPosition<Dim> slope_cosine_of(const Model<Dim>& model, double cell) {
   if (!model.ground) {
     return {};
   }
-  return [&model, cell](const Vector<Real, Dim - 1>& point) {
-    return static_cast<Real>(model.ground->slope_cosine(point.template cast<double>(), cell));
-  };
+  return [&model, cell](const Vector<double, Dim - 1>& point) { return model.ground->slope_cosine(point, cell); };
 }
 
 template <int Dim>
 band::OfPosition<Dim> normal_gravity_of(const Model<Dim>& model, double cell) {
-  return [&model, cell](const Vector<Real, Dim - 1>& point) {
-    const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
+  return [&model, cell](const Vector<double, Dim - 1>& point) {
+    const Vector<double, Dim> gravity = model.motion.gravity;
     if (!model.ground) {
-      return static_cast<Real>(-gravity[Dim - 1]);
+      return -gravity[Dim - 1];
     }
-    const auto normal = model.ground->normal_below(point.template cast<double>(), cell);
-    return static_cast<Real>(std::max(0.0, gravity.dot(normal)) * -normal[Dim - 1]);
+    const auto normal = model.ground->normal_below(point, cell);
+    return std::max(0.0, gravity.dot(normal)) * -normal[Dim - 1];
   };
 }
 

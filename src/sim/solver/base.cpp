@@ -28,11 +28,11 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim>
                       config::location_of(parameters, "band.model")));
     }
     index = particles.material(p);
-    const auto of_particle = static_cast<double>(particles.initial_volume(p));
+    const auto of_particle = particles.initial_volume(p);
     volume += of_particle;
-    material.depth += of_particle * static_cast<double>(particles.flow_depth(p));
-    material.temperature += of_particle * static_cast<double>(particles.temperature(p));
-    material.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
+    material.depth += of_particle * particles.flow_depth(p);
+    material.temperature += of_particle * particles.temperature(p);
+    material.porosity += of_particle * particles.initial_porosity(p);
   }
   if (index < 0) {
     throw UserError(
@@ -43,8 +43,7 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim>
   material.depth /= volume;
   material.temperature /= volume;
   material.porosity /= volume;
-  material.hydraulic_conductivity =
-      static_cast<double>(model.motion.materials[static_cast<std::size_t>(index)].hydraulic_conductivity);
+  material.hydraulic_conductivity = model.motion.materials[static_cast<std::size_t>(index)].hydraulic_conductivity;
   return material;
 }
 
@@ -70,27 +69,25 @@ void start_columns(const Setup<Dim>& setup, const mpm::Particles<Dim>& particles
 
 template <int Dim>
 void update_columns(const Setup<Dim>& setup, const mpm::SparseGrid<Dim>& grid,
-                    const terrain::GroundOnGrid<Dim>& ground_on_grid, double time, Real dt, mpm::Nodes<Dim>& nodes,
+                    const terrain::GroundOnGrid<Dim>& ground_on_grid, double time, double dt, mpm::Nodes<Dim>& nodes,
                     Base<Dim>& base) {
   if (!base.columns) {
     return;
   }
   const terrain::Surface<Dim>& surface = *setup.model.ground;
   const typename band::BasalSegments<Dim>::Ground ground{
-      [&](const auto& point) { return static_cast<Real>(surface.height(point.template cast<double>())); },
-      [&](const auto& point) -> Vector<Real, Dim> {
-        return surface.normal_below(point.template cast<double>(), setup.cell()).template cast<Real>();
-      },
+      [&](const auto& point) { return surface.height(point); },
+      [&](const auto& point) -> Vector<double, Dim> { return surface.normal_below(point, setup.cell()); },
       [&](const auto& point) { return setup.model.motion.width.at(point[0]); }};
   const auto node_normal = [&](std::size_t b, std::size_t k) {
     const bool is_near = ground_on_grid.any_candidate(b) && ground_on_grid.block(b)[k].candidate;
     return is_near ? &ground_on_grid.block(b)[k].normal : nullptr;
   };
-  const auto thickness = static_cast<Real>(setup.band_thickness(time));
+  const auto thickness = setup.band_thickness(time);
   base.columns->update_from_nodes(grid, ground, node_normal, thickness, dt, nodes);
-  base.column_time += static_cast<double>(dt);
-  if (base.column_time + 0.5 * static_cast<double>(dt) > setup.parameters.band.column_step) {
-    const auto duration = static_cast<Real>(base.column_time);
+  base.column_time += dt;
+  if (base.column_time + 0.5 * dt > setup.parameters.band.column_step) {
+    const auto duration = base.column_time;
     base.columns->follow(grid, ground, node_normal, duration, nodes);
     base.columns->step(thickness, duration);
     base.column_time = 0.0;
@@ -101,7 +98,7 @@ template <int Dim>
 void restore_columns(const Setup<Dim>& setup, const std::vector<double>& state, Base<Dim>& base) {
   base.columns->restore(state);
   // Segments move with the slide, whose cells extend beyond the domain.
-  const Real margin = Real(8) * static_cast<Real>(setup.cell());
+  const double margin = 8.0 * setup.cell();
   for (const auto& segment : base.columns->segments()) {
     if (!is_about_domain<Dim>(segment.position, setup.model.constraints.extent, margin)) {
       StateNumbers(state, "band columns").fail(fmt::format("segment {} lies far beyond the domain", segment.id));
@@ -112,7 +109,7 @@ void restore_columns(const Setup<Dim>& setup, const std::vector<double>& state, 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                     \
   template void start_columns<Dim>(const Setup<Dim>&, const mpm::Particles<Dim>&, Base<Dim>&);                         \
   template void update_columns<Dim>(const Setup<Dim>&, const mpm::SparseGrid<Dim>&, const terrain::GroundOnGrid<Dim>&, \
-                                    double, Real, mpm::Nodes<Dim>&, Base<Dim>&);                                       \
+                                    double, double, mpm::Nodes<Dim>&, Base<Dim>&);                                     \
   template void restore_columns<Dim>(const Setup<Dim>&, const std::vector<double>&, Base<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -32,7 +32,7 @@ void start_columns(const Setup<Dim>& setup, const mpm::Particles<Dim>& particles
 // Updates the columns after contact in a step of dt from `time` [s]. ground, nodes: on the grid of the step.
 template <int Dim>
 void update_columns(const Setup<Dim>& setup, const mpm::SparseGrid<Dim>& grid, const terrain::GroundOnGrid<Dim>& ground,
-                    double time, Real dt, mpm::Nodes<Dim>& nodes, Base<Dim>& base);
+                    double time, double dt, mpm::Nodes<Dim>& nodes, Base<Dim>& base);
 
 // Restores columns from a checkpoint. Throws UserError for an impossible state.
 template <int Dim>

@@ -30,16 +30,16 @@ namespace thawslide::sim {
 //   heat content from conduction, advection and the friction heat of the contact nodes         Eqs. 9, 18-20
 //   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
 template <int Dim>
-StepSums<Dim> CpuSolver<Dim>::step(Real dt, const terrain::StrengthLaw* strength) {
+StepSums<Dim> CpuSolver<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
   const Model<Dim>& model = setup_.model;
   StepSums<Dim> sums;
   stopwatch_.time("find_cells", [&] { find_cells(); });
   stopwatch_.time("average_band_on_grid", [&] {
-    sums.band_rescale = model.band.rescaling_mixes ? rescale_band() : Real(0);  // changes temperatures
+    sums.band_rescale = model.band.rescaling_mixes ? rescale_band() : 0.0;  // changes temperatures
     average_band_on_grid(model.contact.reads_mass || strength != nullptr);
   });
   if (setup_.parameters.mechanics.enabled) {
-    Real force_of_walls = 0;
+    double force_of_walls = 0;
     stopwatch_.time("momentum_to_grid", [&] { force_of_walls = momentum_to_grid(); });
     stopwatch_.time("resolve_contact", [&] {
       sums.contact = resolve_contact(dt, strength);
@@ -84,13 +84,13 @@ void CpuSolver<Dim>::average_band_on_grid(bool reads_mass) {
 }
 
 template <int Dim>
-Real CpuSolver<Dim>::momentum_to_grid() {
+double CpuSolver<Dim>::momentum_to_grid() {
   return mpm::momentum_to_grid(slide_.grid, slide_.particles, setup_.model.motion, nodes_);
 }
 
 // Only nodes out of reach of band columns need the state of particles, and only if a law reads it.
 template <int Dim>
-void CpuSolver<Dim>::press_on_ground(Real dt, bool reads_mass) {
+void CpuSolver<Dim>::press_on_ground(double dt, bool reads_mass) {
   const Model<Dim>& model = setup_.model;
   if (!model.ground) {
     return;
@@ -101,8 +101,7 @@ void CpuSolver<Dim>::press_on_ground(Real dt, bool reads_mass) {
   if (base_.columns) {
     base_.columns->to_nodes(slide_.grid, nodes_);
   }
-  terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, static_cast<Real>(clock_.time),
-                           dt, nodes_);
+  terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, clock_.time, dt, nodes_);
   if (base_.columns && reads_mass && terrain::loads_bare_ground(slide_.grid, nodes_)) {
     band::average_on_grid(slide_.grid, model.band, slide_.particles, nodes_);
     terrain::near_ground_to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
@@ -110,7 +109,7 @@ void CpuSolver<Dim>::press_on_ground(Real dt, bool reads_mass) {
 }
 
 template <int Dim>
-terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(Real dt, const terrain::StrengthLaw* strength) {
+terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terrain::StrengthLaw* strength) {
   const Model<Dim>& model = setup_.model;
   if (model.between_bodies.any()) {
     body_contact_.add_forces(slide_.grid, slide_.particles, model.between_bodies, model.motion.sizes,
@@ -121,9 +120,8 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(Real dt, const terrain
   if (bed != nullptr) {
     bed->cover(slide_.grid, slide_.ground, model.motion.sizes, slide_.particles);
   }
-  const terrain::ContactWork<Dim> work =
-      terrain::resolve_contact(slide_.grid, ground(), model.constraints, model.contact, static_cast<Real>(clock_.time),
-                               dt, nodes_, bed, strength);
+  const terrain::ContactWork<Dim> work = terrain::resolve_contact(
+      slide_.grid, ground(), model.constraints, model.contact, clock_.time, dt, nodes_, bed, strength);
   if (bed != nullptr) {
     bed->collect(slide_.grid, nodes_, dt);
   }
@@ -135,33 +133,33 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(Real dt, const terrain
 }
 
 template <int Dim>
-void CpuSolver<Dim>::move_particles(Real dt, StepSums<Dim>& sums) {
+void CpuSolver<Dim>::move_particles(double dt, StepSums<Dim>& sums) {
   const Model<Dim>& model = setup_.model;
   sums.particle_kinetic = mpm::move_particles(slide_.grid, slide_.particles, model.motion, dt, nodes_);
-  if (model.motion.filter_order > 0 && filters_in_step(setup_.parameters, clock_.time, static_cast<double>(dt))) {
+  if (model.motion.filter_order > 0 && filters_in_step(setup_.parameters, clock_.time, dt)) {
     sums.filtered = mpm::filter_velocities(slide_.grid, slide_.particles, model.motion, nodes_);
   }
   sums.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
-                                                    model.motion.gravity, static_cast<Real>(clock_.time), dt, nodes_);
+                                                    model.motion.gravity, clock_.time, dt, nodes_);
   if (model.between_bodies.any()) {
     sums.between_bodies = body_contact_.constrain_mapped_back(model.motion.gravity, dt, nodes_);
   }
 }
 
 template <int Dim>
-Real CpuSolver<Dim>::rescale_band() {
+double CpuSolver<Dim>::rescale_band() {
   const Model<Dim>& model = setup_.model;
   const double thickness = setup_.band_thickness(clock_.time);
   const bool depends_on_position = model.band.region != band::BandRegion::all || model.ground;
   if (model.contact.band_columns || !(depends_on_position || thickness != band_thickness_)) {
-    return Real(0);
+    return 0.0;
   }
   band_thickness_ = thickness;
-  return band::rescale_band(slide_.grid, model.band, static_cast<Real>(thickness), slide_.particles);
+  return band::rescale_band(slide_.grid, model.band, thickness, slide_.particles);
 }
 
 template <int Dim>
-band::HeatGain CpuSolver<Dim>::conduct_heat(Real dt) {
+band::HeatGain CpuSolver<Dim>::conduct_heat(double dt) {
   const band::BandModel<Dim>& model = setup_.model.band;
   if (base_.columns) {  // the body's temperature is constant
     return {};
@@ -172,7 +170,7 @@ band::HeatGain CpuSolver<Dim>::conduct_heat(Real dt) {
 }
 
 template <int Dim>
-band::WaterLoss CpuSolver<Dim>::drain_pore_pressure(Real dt) {
+band::WaterLoss CpuSolver<Dim>::drain_pore_pressure(double dt) {
   if (!setup_.model.band.pressure || base_.columns) {
     return {};
   }
@@ -186,11 +184,11 @@ mpm::InvalidParticle CpuSolver<Dim>::update_positions() {
   mpm::Particles<Dim>& particles = slide_.particles;
   if (setup_.parameters.mechanics.enabled) {
     // Particles that will be removed may leave the domain before the end of the step.
-    const Real margin = setup_.parameters.grid.leaving == config::Policy::remove ? slide_.grid.cell() : Real(0);
-    const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
+    const double margin = setup_.parameters.grid.leaving == config::Policy::remove ? slide_.grid.cell() : 0.0;
+    const Vector<double, Dim> beyond = Vector<double, Dim>::Constant(margin);
     slide_.are_located = false;
-    return mpm::update_positions(particles, Vector<Real, Dim>(-beyond),
-                                 Vector<Real, Dim>(setup_.model.constraints.extent + beyond));
+    return mpm::update_positions(particles, Vector<double, Dim>(-beyond),
+                                 Vector<double, Dim>(setup_.model.constraints.extent + beyond));
   }
   mpm::InvalidParticle invalid;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -210,8 +208,7 @@ void CpuSolver<Dim>::begin() {
   }
   mark_band();
   if (!model.contact.band_columns) {
-    band::rescale_band(slide_.grid, model.band, static_cast<Real>(setup_.band_thickness(clock_.time)),
-                       slide_.particles);
+    band::rescale_band(slide_.grid, model.band, setup_.band_thickness(clock_.time), slide_.particles);
   }
   update_flow_depth();
   flow_depth_.depth_to_particles(slide_.grid, slide_.particles);
@@ -237,8 +234,7 @@ void CpuSolver<Dim>::join(std::size_t first) {
     terrain::set_contact_offset(model.motion.sizes, slide_.grid.cell(), slide_.particles, first);
   }
   if (!model.contact.band_columns) {
-    band::rescale_band(slide_.grid, model.band, static_cast<Real>(setup_.band_thickness(clock_.time)), slide_.particles,
-                       first);
+    band::rescale_band(slide_.grid, model.band, setup_.band_thickness(clock_.time), slide_.particles, first);
   }
 }
 
@@ -247,7 +243,7 @@ template <int Dim>
 void CpuSolver<Dim>::mark_band() {
   terrain::start_contact(slide_.grid, ground(), nodes_);
   if (setup_.model.ground) {
-    terrain::mark_band_and_slip(slide_.grid, slide_.ground, Real(0), nodes_, slide_.particles);
+    terrain::mark_band_and_slip(slide_.grid, slide_.ground, 0.0, nodes_, slide_.particles);
   }
 }
 

@@ -32,7 +32,7 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] const mpm::Nodes<Dim>& nodes() const { return nodes_; }
 
   void start() override {}
-  StepSums<Dim> step(Real dt, const terrain::StrengthLaw* strength) override;
+  StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) override;
   [[nodiscard]] bool none_has_left() const override { return false; }
   [[nodiscard]] band::StepExtremes extremes() const override;
   [[nodiscard]] mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) const override;
@@ -46,17 +46,17 @@ class CpuSolver final : public Solver<Dim> {
  private:
   // The stages of a step, in order. Each returns its sums.
   void average_band_on_grid(bool reads_mass);
-  [[nodiscard]] Real momentum_to_grid();
-  void press_on_ground(Real dt, bool reads_mass);
-  [[nodiscard]] terrain::ContactWork<Dim> resolve_contact(Real dt, const terrain::StrengthLaw* strength);
-  void move_particles(Real dt, StepSums<Dim>& sums);
-  [[nodiscard]] band::HeatGain conduct_heat(Real dt);
-  [[nodiscard]] band::WaterLoss drain_pore_pressure(Real dt);
+  [[nodiscard]] double momentum_to_grid();
+  void press_on_ground(double dt, bool reads_mass);
+  [[nodiscard]] terrain::ContactWork<Dim> resolve_contact(double dt, const terrain::StrengthLaw* strength);
+  void move_particles(double dt, StepSums<Dim>& sums);
+  [[nodiscard]] band::HeatGain conduct_heat(double dt);
+  [[nodiscard]] band::WaterLoss drain_pore_pressure(double dt);
   [[nodiscard]] mpm::InvalidParticle update_positions();
 
   void mark_band();
   // Returns the heat added [J].
-  [[nodiscard]] Real rescale_band();
+  [[nodiscard]] double rescale_band();
   void update_flow_depth();
   // Updates the load on particles at memory index `first` and above: weight of the column above, normal to the ground.
   void update_normal_load(std::size_t first = 0);

@@ -13,13 +13,13 @@ namespace {
 // Host copy of a device's grid without particles, with the nodal values that band columns read.
 template <int Dim>
 struct NodesOfDevice {
-  NodesOfDevice(Real cell, const mpm::Mapping& mapping) : grid(cell, {}, mapping) {}
+  NodesOfDevice(double cell, const mpm::Mapping& mapping) : grid(cell, {}, mapping) {}
 
   mpm::SparseGrid<Dim> grid;
   terrain::GroundOnGrid<Dim> ground;
   mpm::Nodes<Dim> nodes;
   std::vector<std::uint32_t> requested_blocks;  // blocks whose nodes the device transfers
-  std::vector<Real> states;                     // records of BaseState of candidate nodes
+  std::vector<double> states;                   // records of BaseState of candidate nodes
 };
 
 // Updates the active blocks. Basal segments read nodes in blocks with candidate nodes and in adjacent blocks.
@@ -64,10 +64,10 @@ void list_states(band::BasalSegments<Dim>& columns, NodesOfDevice<Dim>& base) {
 }
 
 template <int Dim>
-void set_nodes(const std::vector<Real>& numbers, NodesOfDevice<Dim>& base) {
+void set_nodes(const std::vector<double>& numbers, NodesOfDevice<Dim>& base) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   constexpr auto of_contact = static_cast<std::size_t>(mpm::Contact::size<Dim>);
-  const Real* record = numbers.data();
+  const double* record = numbers.data();
   for (const std::size_t b : base.requested_blocks) {
     for (std::size_t k = 0; k < block_nodes; ++k, record += device::column_record_size<Dim>) {
       if (base.nodes.contact.contains(b)) {
@@ -84,33 +84,33 @@ template <int Dim>
 struct BedBelowDevice {
   std::vector<std::size_t> columns;                         // below the active blocks: column numbers in the bed
   std::vector<typename terrain::Bed<Dim>::Pressing> nodes;  // that may touch the ground
-  std::vector<Real> available;                              // mass available to these nodes [kg]
+  std::vector<double> available;                            // mass available to these nodes [kg]
 };
 
 }  // namespace
 
 template <int Dim>
-device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const Real& dt, Base<Dim>& base) {
+device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base) {
   if (!base.columns) {
     return {};
   }
-  const auto below = std::make_shared<NodesOfDevice<Dim>>(static_cast<Real>(setup.cell()), mapping_of(setup.model));
+  const auto below = std::make_shared<NodesOfDevice<Dim>>(setup.cell(), mapping_of(setup.model));
   return {[&setup, below](const std::vector<std::uint64_t>& blocks) {
             update_blocks(setup.model, blocks, *below);
             return below->requested_blocks;
           },
-          [&base, below]() -> const std::vector<Real>& {
+          [&base, below]() -> const std::vector<double>& {
             list_states(*base.columns, *below);
             return below->states;
           },
-          [&setup, &clock, &dt, &base, below](const std::vector<Real>& nodes) {
+          [&setup, &clock, &dt, &base, below](const std::vector<double>& nodes) {
             set_nodes(nodes, *below);
             update_columns(setup, below->grid, below->ground, clock.time, dt, below->nodes, base);
           }};
 }
 
 template <int Dim>
-device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const Real& dt, Base<Dim>& base) {
+device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const double& dt, Base<Dim>& base) {
   terrain::Bed<Dim>* bed = base.bed_in_reach(setup.model);
   if (bed == nullptr) {
     return {};
@@ -129,7 +129,7 @@ device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const Real& dt, Bas
             }
           },
           [bed, below](const std::vector<std::uint32_t>& parts,
-                       const std::vector<Real>& loads) -> const std::vector<Real>& {
+                       const std::vector<double>& loads) -> const std::vector<double>& {
             for (std::size_t c = 0; c < parts.size(); ++c) {
               if (below->columns[c] != terrain::Bed<Dim>::outside) {
                 bed->cover(below->columns[c], parts[c]);
@@ -145,11 +145,11 @@ device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const Real& dt, Bas
             }
             return below->available;
           },
-          [bed, below, &dt](const std::vector<Real>& nodes) {
+          [bed, below, &dt](const std::vector<double>& nodes) {
             bed->age(dt);
-            const Real* record = nodes.data();
+            const double* record = nodes.data();
             for (const auto& node : below->nodes) {
-              if (record[mpm::BedLayout<Dim>::entrained] > Real(0)) {
+              if (record[mpm::BedLayout<Dim>::entrained] > 0.0) {
                 bed->collect(node.column, record, record[mpm::BedLayout<Dim>::size]);
               }
               record += device::bed_record_size<Dim>;
@@ -157,9 +157,9 @@ device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const Real& dt, Bas
           }};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                \
-  template device::HostColumns columns_for_device<Dim>(const Setup<Dim>&, const Clock&, const Real&, Base<Dim>&); \
-  template device::HostBed<Dim> bed_for_device<Dim>(const Setup<Dim>&, const Real&, Base<Dim>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                  \
+  template device::HostColumns columns_for_device<Dim>(const Setup<Dim>&, const Clock&, const double&, Base<Dim>&); \
+  template device::HostBed<Dim> bed_for_device<Dim>(const Setup<Dim>&, const double&, Base<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

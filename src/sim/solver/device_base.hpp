@@ -10,8 +10,8 @@ namespace thawslide::sim {
 
 // Callbacks; empty without band columns or bed. All arguments must outlive them. dt: of the step [s].
 template <int Dim>
-device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const Real& dt, Base<Dim>& base);
+device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base);
 template <int Dim>
-device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const Real& dt, Base<Dim>& base);
+device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const double& dt, Base<Dim>& base);
 
 }  // namespace thawslide::sim

@@ -32,7 +32,7 @@ std::string not_on_devices(const Model<Dim>& model) {
 template <int Dim>
 device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts) {
   device::StepModel<Dim> device;
-  device.cell = static_cast<Real>(parameters.grid.cell);
+  device.cell = parameters.grid.cell;
   device.mapping = mapping_of(model);
   if (model.ground) {
     device.columns = model.ground->columns();
@@ -47,9 +47,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.gravity = model.motion.gravity;
   device.pic_fraction = model.motion.pic_fraction;
   device.filter_order = model.motion.filter_order;
-  device.filters_in_step = [parameters](Real time, Real dt) {
-    return filters_in_step(parameters, static_cast<double>(time), static_cast<double>(dt));
-  };
+  device.filters_in_step = [parameters](double time, double dt) { return filters_in_step(parameters, time, dt); };
   device.mass_damping = model.contact.mass_damping;
   device.materials = model.motion.materials;
   device.free_gaps = model.free_gaps;
@@ -58,8 +56,8 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.lubrication = model.motion.lubrication;
   device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
   // Particles that will be removed may leave the domain before the end of the step.
-  const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
-  const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
+  const double margin = parameters.grid.leaving == config::Policy::remove ? device.cell : 0.0;
+  const Vector<double, Dim> beyond = Vector<double, Dim>::Constant(margin);
   device.lower = -beyond;
   device.upper = model.constraints.extent + beyond;
   device.finds_extremes = parameters.time.stepping == config::Stepping::adaptive;
@@ -78,9 +76,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.band = static_cast<const band::BandPhysics&>(model.band);
   device.rescales_band = !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
-  device.band_thickness = [thickness = parameters.band.thickness](Real time) {
-    return static_cast<Real>(thickness.at(static_cast<double>(time)));
-  };
+  device.band_thickness = [thickness = parameters.band.thickness](double time) { return thickness.at(time); };
   device.scales_all = model.band.region == band::BandRegion::all;
   return device;
 }

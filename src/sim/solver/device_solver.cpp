@@ -16,11 +16,11 @@ namespace {
 
 // True if a position is outside the domain or the known terrain.
 template <int Dim>
-bool any_has_left(const Model<Dim>& model, const std::vector<Vector<Real, Dim>>& positions) {
-  const Vector<Real, Dim>& extent = model.constraints.extent;
-  const auto left = [&](const Vector<Real, Dim>& position) {
-    return (position.array() < Real(0)).any() || (position.array() > extent.array()).any() ||
-           (model.ground && !model.ground->is_known(position.template head<Dim - 1>().template cast<double>()));
+bool any_has_left(const Model<Dim>& model, const std::vector<Vector<double, Dim>>& positions) {
+  const Vector<double, Dim>& extent = model.constraints.extent;
+  const auto left = [&](const Vector<double, Dim>& position) {
+    return (position.array() < 0.0).any() || (position.array() > extent.array()).any() ||
+           (model.ground && !model.ground->is_known(position.template head<Dim - 1>()));
   };
   constexpr std::size_t of_a_task = 1024;
   return parallel_sum<std::size_t>(
@@ -38,7 +38,7 @@ struct DeviceSolver<Dim>::Session {
   std::unique_ptr<device::Solver<Dim>> solver;  // null while the next step begins with the particles of the host
   StepSums<Dim> sums;                           // of the last step
   device::MapSample map_sample;                 // of the last step
-  Real dt = 0;                                  // of the step [s]
+  double dt = 0;                                // of the step [s]
   bool host_particles_valid = true, host_grid_valid = true, has_failed = false;
 };
 
@@ -90,7 +90,7 @@ void DeviceSolver<Dim>::start() {
 }
 
 template <int Dim>
-StepSums<Dim> DeviceSolver<Dim>::step(Real dt, const terrain::StrengthLaw* strength) {
+StepSums<Dim> DeviceSolver<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
   THAWSLIDE_ASSERT(!has_failed(), "a step after {} has failed", name_);
   THAWSLIDE_ASSERT(strength == nullptr, "a law of the caller on {}", name_);
   start();
@@ -101,7 +101,7 @@ StepSums<Dim> DeviceSolver<Dim>::step(Real dt, const terrain::StrengthLaw* stren
       session.solver->sort_in_memory();
     }
     session.host_particles_valid = session.host_grid_valid = false;
-    session.sums = session.solver->step(static_cast<Real>(clock_.time), dt);
+    session.sums = session.solver->step(clock_.time, dt);
   });
   return session.sums;
 }
@@ -111,7 +111,7 @@ bool DeviceSolver<Dim>::none_has_left() const {
   if (!session_->solver) {
     return false;
   }
-  std::vector<Vector<Real, Dim>> escapes;
+  std::vector<Vector<double, Dim>> escapes;
   if (session_->sums.escapes > 0) {
     call([&] { escapes = session_->solver->escaped_positions(); });
   }

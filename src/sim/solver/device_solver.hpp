@@ -26,7 +26,7 @@ class DeviceSolver final : public Solver<Dim> {
   [[nodiscard]] bool has_failed() const;
 
   void start() override;
-  StepSums<Dim> step(Real dt, const terrain::StrengthLaw* strength) override;
+  StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) override;
   [[nodiscard]] bool none_has_left() const override;
   [[nodiscard]] band::StepExtremes extremes() const override;
   [[nodiscard]] mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) const override;

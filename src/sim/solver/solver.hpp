@@ -30,7 +30,7 @@ class Solver {
   virtual void start() = 0;
   // Advances particles by dt [s] from the time of the clock. strength: replaces the basal laws of the case; only on the
   // CPU. If it throws, the particles are those before the step.
-  virtual StepSums<Dim> step(Real dt, const terrain::StrengthLaw* strength) = 0;
+  virtual StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) = 0;
   // True if the last step has shown that no particle has left. Otherwise all have to be checked in host memory.
   [[nodiscard]] virtual bool none_has_left() const = 0;
 

@@ -65,19 +65,19 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
   };
   if (parameters.mechanics.enabled) {
     band::Extreme lightest = found.density, stiffest = found.elastic_density;
-    if (model.bed_density > Real(0)) {  // entrained material is included from the start
-      lightest.lower({static_cast<double>(model.bed_density)});
-      stiffest.lower({static_cast<double>(model.bed_density)});
+    if (model.bed_density > 0.0) {  // entrained material is included from the start
+      lightest.lower({model.bed_density});
+      stiffest.lower({model.bed_density});
     }
     // Pore pressure and viscosity act across open gaps; elastic stiffness does not.
     const bool pores_push_back = model.motion.effective_stress && model.band.volumetric_term;
     const double of_pores = pores_push_back ? found.pore_stiffness / lightest.value : 0.0;
     for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
       const auto& material = model.motion.materials[m];
-      const auto modulus = static_cast<double>(material.elastic.p_wave_modulus());
+      const auto modulus = material.elastic.p_wave_modulus();
       const double of_skeleton = modulus / stiffest.value;
       const WaveSpeeds speeds{std::sqrt(of_skeleton + of_pores), std::sqrt(modulus / lightest.value + of_pores)};
-      const auto viscosity_time = static_cast<double>(material.viscosity_time);
+      const auto viscosity_time = material.viscosity_time;
       const bool is_viscous = viscosity_rules(cell, speeds, viscosity_time);
       const band::Extreme& what = is_viscous || of_pores > of_skeleton ? lightest : stiffest;
       visit(wave_fraction * wave_limit(cell, speeds, viscosity_time),
@@ -111,7 +111,7 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
 template <int Dim>
 band::StepExtremes extremes_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles) {
   constexpr std::size_t of_a_task = 1024;
-  const std::vector<Real>& conductivity = model.band.hydraulic_conductivity;
+  const std::vector<double>& conductivity = model.band.hydraulic_conductivity;
   const band::HydraulicConductivity hydraulic{conductivity.data(), conductivity.size() == 1};
   const band::FreeGaps free_gaps{model.free_gaps.data()};
   const std::size_t count = particles.size(), tasks = (count + of_a_task - 1) / of_a_task;

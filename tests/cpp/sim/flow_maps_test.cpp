@@ -191,8 +191,9 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
   maps.start(simulation.grid(), simulation.particles());
   of_thin.start(simulation.grid(), simulation.particles());
   const double area = 64.0 * 20.0;
-  double speed = 0.0, flux = 0.0, pressure = 0.0, temperature = -HUGE_VAL, melt = 0.0, pore = -HUGE_VAL;
-  const auto warning = [&] {
+  double speed = 0.0, flux = 0.0, pressure = 0.0, temperature = -HUGE_VAL, melt = 0.0, pore = -HUGE_VAL,
+         time_of_pressure = -1.0;
+  const auto record = [&] {
     const auto& particles = simulation.particles();
     Vector<double, 3> momentum = Vector<double, 3>::Zero();
     double mass = 0.0, water = 0.0, band = 0.0, warm = 0.0, pressed = 0.0;
@@ -210,17 +211,20 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
     const double volume = volume_of(particles), v = momentum.norm() / mass;
     speed = std::max(speed, v);
     flux = std::max(flux, volume / area * v * v);
-    pressure = std::max(pressure, mass / volume * v * v);
+    if (mass / volume * v * v > pressure) {
+      pressure = mass / volume * v * v;
+      time_of_pressure = simulation.time();
+    }
     temperature = std::max(temperature, warm / band);
     melt = std::max(melt, water / area);
     pore = std::max(pore, pressed / band);
   };
-  warning();
+  record();
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
     maps.gather(simulation.grid(), simulation.particles(), simulation.time());
     of_thin.gather(simulation.grid(), simulation.particles(), simulation.time());
-    warning();
+    record();
   }
   EXPECT_EQ(maps.covered_cells(0.1).area(), 0.0);
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_speed));
@@ -238,6 +242,7 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
   EXPECT_EQ(thin.arrival_time, 0.0);
   EXPECT_NEAR(thin.max_speed, speed, 1e-12 * speed);
   EXPECT_NEAR(thin.max_pressure, pressure, 1e-12 * pressure);
+  EXPECT_EQ(thin.max_pressure_time, time_of_pressure);
   EXPECT_EQ(of_thin.covered_cells(of_thin.arrival_thickness()).area(), area);
 }
 

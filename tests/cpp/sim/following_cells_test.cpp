@@ -131,21 +131,21 @@ TEST(FollowingCells, StackedBodiesStandOnTheGroundOfTheCells) {
                               "terrain.file=" +
                               file)));
   const auto& particles = made.particles();
-  std::map<Real, std::array<Real, 4>> columns;  // lowest and highest place of the rock, the same of the ice
+  std::map<double, std::array<double, 4>> columns;  // lowest and highest place of the rock, the same of the ice
   std::array<double, 2> volumes{};
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const auto body = static_cast<std::size_t>(particles.body(p));
     const auto found =
-        columns.try_emplace(particles.position(p, 0), std::array<Real, 4>{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL});
-    std::array<Real, 4>& column = found.first->second;
+        columns.try_emplace(particles.position(p, 0), std::array<double, 4>{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL});
+    std::array<double, 4>& column = found.first->second;
     column[2 * body] = std::min(column[2 * body], particles.position(p, 1));
     column[2 * body + 1] = std::max(column[2 * body + 1], particles.position(p, 1));
     volumes[body] += static_cast<double>(particles.volume(p));
   }
   ASSERT_GE(columns.size(), 20U);
-  const Real spacing = thickness / 6;
+  const double spacing = thickness / 6;
   for (const auto& [x, column] : columns) {
-    const Real ground = static_cast<Real>(made.model().ground->height(terrain::Surface<2>::Point(x)));
+    const double ground = static_cast<double>(made.model().ground->height(terrain::Surface<2>::Point(x)));
     EXPECT_NEAR(column[0] - ground, 0.5 * spacing, 1e-9);
     EXPECT_NEAR(column[2] - column[1], spacing, 1e-9) << "at x = " << x;
     EXPECT_NEAR(column[3] - column[2], thickness - spacing, 1e-9);

@@ -13,10 +13,10 @@ using testing_support::slide_on_plane;
 
 // Velocities of all particles after some steps. The law of the caller keeps the strengths, but receives the mass.
 template <int Dim>
-std::vector<Real> velocities(Simulation<Dim>& simulation, bool reads_mass) {
+std::vector<double> velocities(Simulation<Dim>& simulation, bool reads_mass) {
   std::size_t read = 0;
   const terrain::StrengthLaw unchanged = [&](terrain::LoadedNodes& nodes) {
-    for (const Real fraction : nodes.solid_fraction) {
+    for (const double fraction : nodes.solid_fraction) {
       EXPECT_GT(fraction, 0);
       ++read;
     }
@@ -25,7 +25,7 @@ std::vector<Real> velocities(Simulation<Dim>& simulation, bool reads_mass) {
     simulation.step(0.01, reads_mass ? &unchanged : nullptr);
   }
   EXPECT_EQ(read > 0, reads_mass);
-  std::vector<Real> all;
+  std::vector<double> all;
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     for (int a = 0; a < Dim; ++a) {
       all.push_back(simulation.particles().velocity(p, a));

@@ -59,14 +59,14 @@ struct Motion {
   Motion(const Simulation<Dim>& simulation, const Simulation<Dim>& at_start, int body) {
     const auto& particles = simulation.particles();
     const auto& before = at_start.particles();
-    std::vector<Vector<Real, Dim>> start(before.size());
+    std::vector<Vector<double, Dim>> start(before.size());
     for (std::size_t p = 0; p < before.size(); ++p) {
-      start[static_cast<std::size_t>(before.id(p))] = before.position.template get<Vector<Real, Dim>>(p);
+      start[static_cast<std::size_t>(before.id(p))] = before.position.template get<Vector<double, Dim>>(p);
     }
     for (std::size_t p = 0; p < particles.size(); ++p) {
       if (particles.body(p) == body) {
-        const Vector<Real, Dim> moved =
-            particles.position.template get<Vector<Real, Dim>>(p) - start[static_cast<std::size_t>(particles.id(p))];
+        const Vector<double, Dim> moved =
+            particles.position.template get<Vector<double, Dim>>(p) - start[static_cast<std::size_t>(particles.id(p))];
         mass += particles.mass(p);
         travelled += particles.mass(p) * moved[0];
         speed += particles.mass(p) * particles.velocity(p, 0);

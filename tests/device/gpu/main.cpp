@@ -137,8 +137,8 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
     const mpm::PathSample front = steps.front({path, {5.0, 7.0}}, body.mass);
     numbers.insert(numbers.end(), {front.along, front.mass, front.position[0], front.position[1]});
   }
-  std::vector<std::array<Real, 2>> escapes;  // their order is that of device memory
-  for (const Vector<Real, Dim>& place : steps.escaped_positions()) {
+  std::vector<std::array<double, 2>> escapes;  // their order is that of device memory
+  for (const Vector<double, Dim>& place : steps.escaped_positions()) {
     escapes.push_back({place[0], place[Dim - 1]});
   }
   std::sort(escapes.begin(), escapes.end());

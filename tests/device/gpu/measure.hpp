@@ -39,8 +39,8 @@ inline Size size_of(std::size_t particles) {
   return {cells(4 * height), cells(4 * height), cells(height)};
 }
 
-inline std::vector<Real> plastic_strain_by_id(const ParticleMemory<3>& particles) {
-  std::vector<Real> strain(particles.size());
+inline std::vector<double> plastic_strain_by_id(const ParticleMemory<3>& particles) {
+  std::vector<double> strain(particles.size());
   for (std::size_t k = 0; k < strain.size(); ++k) {
     strain[static_cast<std::size_t>(particles.view().id(k) / 3)] = particles.view().plastic_strain(k);
   }
@@ -85,10 +85,10 @@ inline Measured measured(const device::SolverFactory<3>& make, std::size_t parti
   const Stopwatch of_copy;
   steps->copy_to(memory.view());
   found.seconds_of_copy = of_copy.seconds();
-  const std::vector<Real> before = plastic_strain_by_id(memory);
+  const std::vector<double> before = plastic_strain_by_id(memory);
   take(1);
   steps->copy_to(memory.view());
-  const std::vector<Real> after = plastic_strain_by_id(memory);
+  const std::vector<double> after = plastic_strain_by_id(memory);
   for (std::size_t k = 0; k < after.size(); ++k) {
     found.yielding += after[k] > before[k] ? 1.0 / static_cast<double>(after.size()) : 0.0;
   }

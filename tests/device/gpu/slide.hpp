@@ -44,11 +44,11 @@ class ParticleMemory {
   std::vector<std::vector<std::byte>> memory_;
 };
 
-inline constexpr Real cell = 1.0;           // [m]
-inline constexpr Real ground = 8.0;         // elevation of the ground [m]
-inline constexpr Real density = 2000.0;     // [kg/m3]
-inline constexpr Real slope = 35.0;         // [degrees]
-inline constexpr Real time_step = 1e-3;     // [s]
+inline constexpr double cell = 1.0;         // [m]
+inline constexpr double ground = 8.0;       // elevation of the ground [m]
+inline constexpr double density = 2000.0;   // [kg/m3]
+inline constexpr double slope = 35.0;       // [degrees]
+inline constexpr double time_step = 1e-3;   // [s]
 inline constexpr std::size_t per_axis = 2;  // particles per cell
 
 // Cells of the block along each axis; the second one is unused in 2D.
@@ -86,8 +86,8 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
   const mpm::ParticleView<Dim>& p = memory.view();
   const std::array<std::size_t, 3> count{size.length * per_axis, (Dim == 2 ? size.height : size.width) * per_axis,
                                          size.height * per_axis};
-  const Real spacing = cell / static_cast<Real>(per_axis);
-  Real volume = 1;
+  const double spacing = cell / static_cast<double>(per_axis);
+  double volume = 1;
   for (int a = 0; a < Dim; ++a) {
     volume *= spacing;
   }
@@ -95,22 +95,23 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     const std::array<std::size_t, 3> place{k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
     p.id(k) = static_cast<std::int64_t>((k * 7919) % memory.size() * 3);  // unordered, with gaps
     for (int a = 0; a < Dim; ++a) {
-      const Real from = a == Dim - 1 ? ground : Real(16) * cell;
+      const double from = a == Dim - 1 ? ground : 16.0 * cell;
       // Displaced, so that no two particles behave alike or change cell in the same step.
-      const Real off = 0.45 * std::sin(static_cast<Real>(k % 1009) + 2.4 * a);
-      p.position(k, a) = from + (static_cast<Real>(place[static_cast<std::size_t>(a)]) + 0.5 + off) * spacing;
+      const double off = 0.45 * std::sin(static_cast<double>(k % 1009) + 2.4 * a);
+      p.position(k, a) = from + (static_cast<double>(place[static_cast<std::size_t>(a)]) + 0.5 + off) * spacing;
     }
     p.height_above_ground(k) = p.position(k, Dim - 1) - ground;
     p.volume(k) = p.initial_volume(k) = volume;
     p.mass(k) = density * volume;
-    p.velocity(k, 0) = 3.0 + 6.0 * static_cast<Real>(place[Dim - 1]) / static_cast<Real>(count[2]);  // shear
+    p.velocity(k, 0) = 3.0 + 6.0 * static_cast<double>(place[Dim - 1]) / static_cast<double>(count[2]);  // shear
     p.velocity(k, Dim - 1) = -0.3;
-    const Real depth = static_cast<Real>(size.height) * cell - p.height_above_ground(k);
+    const double depth = static_cast<double>(size.height) * cell - p.height_above_ground(k);
     for (int c = 0; c < 3; ++c) {
       p.stress(k, c) = -0.5 * density * 9.81 * depth;
     }
     const bool melted = 2 * place[0] >= count[0];
-    p.temperature(k) = p.previous_temperature(k) = (melted ? 1.0 : -2e-4) + 1e-4 * std::sin(static_cast<Real>(k % 17));
+    p.temperature(k) = p.previous_temperature(k) =
+        (melted ? 1.0 : -2e-4) + 1e-4 * std::sin(static_cast<double>(k % 17));
     p.porosity(k) = p.initial_porosity(k) = 0.3;
     p.heat_content(k) = heat_content().content(p.temperature(k), p.porosity(k));
     p.liquid_saturation(k) = p.initial_saturation(k) = heat_content().curve.saturation(p.temperature(k));
@@ -129,14 +130,14 @@ device::StepModel<Dim> model_of_slide() {
   model.mapping.has_ground = true;
   model.columns.columns.fill(1);  // others have the same height
   model.columns.chunks.fill(1);
-  model.half_sizes = {0.5 / static_cast<Real>(per_axis)};
+  model.half_sizes = {0.5 / static_cast<double>(per_axis)};
   model.gravity.setZero();
   model.gravity[0] = 9.81 * std::sin(slope * pi / 180.0);
   model.gravity[Dim - 1] = -9.81 * std::cos(slope * pi / 180.0);
   model.pic_fraction = 0.01;
   mpm::MaterialModel material;
   material.elastic = physics::Elastic::from_young_poisson(1e8, 0.3);
-  const Real friction_angle = 30.0 * pi / 180.0;
+  const double friction_angle = 30.0 * pi / 180.0;
   material.law = physics::MohrCoulomb<>::make(material.elastic, {.friction_angle = friction_angle,
                                                                  .dilation_angle = 0.0,
                                                                  .cohesion = 1e3,
@@ -158,7 +159,7 @@ device::StepModel<Dim> model_of_slide() {
   model.band.water.law = physics::WaterExpansionLaw::by_temperature;
   model.band.conservative_advection = true;
   model.hydraulic_conductivity = {1e-9};
-  model.band_thickness = [cell = model.cell](Real /*time*/) { return cell / 10.0; };
+  model.band_thickness = [cell = model.cell](double /*time*/) { return cell / 10.0; };
   model.scales_all = false;
   model.faces.extent.setConstant(1e5);
   model.lower.setZero();
@@ -179,7 +180,7 @@ band::SumsOfParticle<Dim> sums_of_particle() {
   of_particle.phases = phases();
   of_particle.latent = of_particle.melt_contracts = true;
   of_particle.current_masses = false;
-  of_particle.moved_distance = Real(1);
+  of_particle.moved_distance = 1.0;
   return of_particle;
 }
 
@@ -187,17 +188,17 @@ band::SumsOfParticle<Dim> sums_of_particle() {
 template <int Dim>
 bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
   using T = mpm::Tile<Dim>;
-  const Real face = Dim == 2 ? cell : cell * cell;
+  const double face = Dim == 2 ? cell : cell * cell;
   for (int k = 0; k < T::nodes; ++k) {
     const int layer = T::node(T::index(block), k)[Dim - 1];
     terrain::GroundAtNode<Dim> node;
     node.normal.setZero();
     node.normal[Dim - 1] = -1.0;
     node.candidate = layer <= 0;
-    node.plane = layer <= 0 ? -ground : std::numeric_limits<Real>::infinity();
+    node.plane = layer <= 0 ? -ground : std::numeric_limits<double>::infinity();
     node.plane_scale = layer <= 0 ? 1.0 : 0.0;
     node.area = layer == 0 ? face : 0.0;
-    node.elevation = ground + static_cast<Real>(layer) * cell;
+    node.elevation = ground + static_cast<double>(layer) * cell;
     nodes[k] = node;
   }
   return true;
@@ -205,7 +206,7 @@ bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
 
 template <int Dim>
 device::HostCallbacks<Dim> terrain_of_slide() {
-  using Place = Vector<Real, Dim - 1>;
+  using Place = Vector<double, Dim - 1>;
   device::HostCallbacks<Dim> ask;
   ask.ground = query_ground<Dim>;
   ask.column_heights = [] { return std::vector<double>(terrain::ColumnChunks<Dim>::size, ground); };

@@ -45,7 +45,7 @@ device::StepModel<Dim> model_of(Variant variant) {
       break;
     case Variant::filtered:
       model.filter_order = 2;
-      model.filters_in_step = [](Real /*time*/, Real /*dt*/) { return true; };
+      model.filters_in_step = [](double /*time*/, double /*dt*/) { return true; };
       break;
     case Variant::heated_face:
       model.heat_faces.extent.setConstant(1e5);
@@ -67,35 +67,36 @@ device::StepModel<Dim> model_of(Variant variant) {
 }
 
 // Data received by the CPU part of a step, in sequence.
-using Reported = std::vector<Real>;
+using Reported = std::vector<double>;
 
 // Uniform columns.
 template <int Dim>
 device::HostColumns columns_below(const std::shared_ptr<Reported>& specified) {
-  const auto states = std::make_shared<std::vector<Real>>();
-  return {
-      [states](const std::vector<std::uint64_t>& blocks) {
-        std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
-        std::array<Real, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
-        state[mpm::BaseState::area] = 1.0;
-        state[mpm::BaseState::pressure_ratio] = 0.3;
-        state[mpm::BaseState::saturation] = 0.8;
-        state[mpm::BaseState::solid_fraction] = 0.7;
-        states->clear();
-        std::vector<std::uint32_t> asked;
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-          query_ground<Dim>(blocks[b], nodes.data());
-          for (const auto& node : nodes) {
-            if (node.candidate) {
-              states->insert(states->end(), state.begin(), state.end());
+  const auto states = std::make_shared<std::vector<double>>();
+  return {[states](const std::vector<std::uint64_t>& blocks) {
+            std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
+            std::array<double, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
+            state[mpm::BaseState::area] = 1.0;
+            state[mpm::BaseState::pressure_ratio] = 0.3;
+            state[mpm::BaseState::saturation] = 0.8;
+            state[mpm::BaseState::solid_fraction] = 0.7;
+            states->clear();
+            std::vector<std::uint32_t> asked;
+            for (std::size_t b = 0; b < blocks.size(); ++b) {
+              query_ground<Dim>(blocks[b], nodes.data());
+              for (const auto& node : nodes) {
+                if (node.candidate) {
+                  states->insert(states->end(), state.begin(), state.end());
+                }
+              }
+              asked.push_back(static_cast<std::uint32_t>(b));
             }
-          }
-          asked.push_back(static_cast<std::uint32_t>(b));
-        }
-        return asked;
-      },
-      [states]() -> const std::vector<Real>& { return *states; },
-      [specified](const std::vector<Real>& nodes) { specified->insert(specified->end(), nodes.begin(), nodes.end()); }};
+            return asked;
+          },
+          [states]() -> const std::vector<double>& { return *states; },
+          [specified](const std::vector<double>& nodes) {
+            specified->insert(specified->end(), nodes.begin(), nodes.end());
+          }};
 }
 
 // Inexhaustible bed, whose available mass at a node increases with the covered part of its column.
@@ -104,23 +105,23 @@ device::HostBed<Dim> bed_below(const std::shared_ptr<Reported>& specified) {
   using Bed = device::HostBed<Dim>;
   Bed bed;
   bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
-  const auto available = std::make_shared<std::vector<Real>>();
+  const auto available = std::make_shared<std::vector<double>>();
   bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
   bed.distribute = [specified, available](const std::vector<std::uint32_t>& parts,
-                                          const std::vector<Real>& loads) -> const std::vector<Real>& {
-    Real covered = 0;
+                                          const std::vector<double>& loads) -> const std::vector<double>& {
+    double covered = 0;
     for (const std::uint32_t of_column : parts) {
       specified->push_back(of_column);
       covered += of_column != 0 ? 1.0 : 0.0;
     }
     available->clear();
-    for (const Real load : loads) {
+    for (const double load : loads) {
       specified->push_back(load);
       available->push_back(load > 0.0 ? covered : 0.0);
     }
     return *available;
   };
-  bed.collect = [specified](const std::vector<Real>& nodes) {
+  bed.collect = [specified](const std::vector<double>& nodes) {
     specified->insert(specified->end(), nodes.begin(), nodes.end());
   };
   return bed;
