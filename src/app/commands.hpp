@@ -11,7 +11,10 @@ namespace thawslide::app {
 struct CaseOptions {
   std::string file;
   std::vector<std::string> sets;
+  bool coarse = false;  // a trial on cells of twice the size
 };
+// Reads the case with its options. Throws UserError.
+[[nodiscard]] config::Case case_of(const CaseOptions& options);
 
 struct RunOptions {
   CaseOptions of_case;

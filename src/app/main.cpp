@@ -38,6 +38,11 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
       ->allow_extra_args(false);
 }
 
+void add_coarse_option(CLI::App& command, CaseOptions& options) {
+  command.add_flag("--coarse", options.coarse,
+                   "Trial on cells, fixed steps and map cells of twice the size (folder of a run: runs/NAME-coarse)");
+}
+
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Maximum number of threads (default: the cores available to the process)")
       ->check(CLI::Range(1, 1024));
@@ -134,6 +139,7 @@ int run_program(int count, char** arguments) {
   RunOptions run_options;
   CLI::App* run = program.add_subcommand("run", "Run a case");
   add_case_options(*run, run_options.of_case);
+  add_coarse_option(*run, run_options.of_case);
   add_threads_option(*run, run_options.threads);
   add_device_option(*run, run_options.device);
   run->add_option("--end", run_options.end, "End of the run [s]; short for --set time.end=END")->check(above_zero());
@@ -174,6 +180,7 @@ int run_program(int count, char** arguments) {
   CheckOptions check_options;
   CLI::App* check = program.add_subcommand("check", "Validate a case and estimate the cost of its run");
   add_case_options(*check, check_options.of_case);
+  add_coarse_option(*check, check_options.of_case);
   add_threads_option(*check, check_options.threads);
   CLI::Option* picture = check->add_option(
       "--picture", check_options.picture,

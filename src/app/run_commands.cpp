@@ -1,9 +1,12 @@
 // thawslide run and resume.
+#include <set>
+
 #include "app/commands.hpp"
 #include "app/process.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "config/case_changes.hpp"
+#include "config/coarse_case.hpp"
 #include "config/read_case.hpp"
 #include "run/run_loop.hpp"
 #include "run/start.hpp"
@@ -21,6 +24,12 @@ std::vector<std::string> with_end(std::vector<std::string> sets, const std::stri
     sets.push_back("time.end=" + end);
   }
   return sets;
+}
+
+// Name of the folder of a trial, which does not replace the results of the case.
+std::string output_of(const RunOptions& options, const config::Case& parameters) {
+  return options.of_case.coarse && options.output.empty() ? run::usual_run_folder(parameters).string() + "-coarse"
+                                                          : options.output;
 }
 
 // The same options for the Python program that runs the case on several cells.
@@ -46,15 +55,38 @@ std::vector<std::string> arguments_of_pair(const RunOptions& options) {
 
 }  // namespace
 
+config::Case case_of(const CaseOptions& options) {
+  const config::Case parameters = config::read_case(options.file, options.sets);
+  if (!options.coarse) {
+    return parameters;
+  }
+  std::vector<std::string> sets = options.sets;
+  const std::set<std::string> given = config::keys_of(sets);
+  for (const std::string& change : config::coarse_changes(parameters)) {
+    const std::string key = change.substr(0, change.find('='));
+    if (given.count(key) > 0) {
+      throw UserError(fmt::format("--coarse sets {}: omit --coarse, or --set {}.", key, key));
+    }
+    sets.push_back(change);
+  }
+  return config::read_case(options.file, sets);
+}
+
 int run_case(const RunOptions& options) {
+  if (options.pair && options.of_case.coarse) {
+    throw UserError("--pair runs the case on coarse cells, too: omit --coarse.");
+  }
   if (options.pair) {
     return run_python_command("pair", arguments_of_pair(options));
   }
   survive_closed_pipes();
   run::use_threads(options.threads);
   Terminal terminal;
-  const config::Case parameters = config::read_case(options.of_case.file, with_end(options.of_case.sets, options.end));
-  return static_cast<int>(run::start_run(parameters, {options.output, options.overwrite, options.device}, terminal));
+  CaseOptions of_case = options.of_case;
+  of_case.sets = with_end(of_case.sets, options.end);
+  const config::Case parameters = case_of(of_case);
+  return static_cast<int>(
+      run::start_run(parameters, {output_of(options, parameters), options.overwrite, options.device}, terminal));
 }
 
 int resume_run(const ResumeOptions& options) {

@@ -16,6 +16,7 @@
 #include "run/state.hpp"
 #include "run/step_warnings.hpp"
 #include "sim/checks/body_figures.hpp"
+#include "sim/records/end_state.hpp"
 #include "sim/records/run_records.hpp"
 
 namespace thawslide::run {
@@ -93,6 +94,61 @@ class LiveRunOf final : public LiveRun {
   }
 
   [[nodiscard]] const std::vector<sim::HistoryRow>& history() const override { return history_; }
+
+  [[nodiscard]] sim::HistoryRow row() const override { return records_.history_row(*simulation_); }
+
+  [[nodiscard]] std::vector<std::pair<std::string, double>> key_numbers() const override {
+    auto numbers = sim::named(sim::end_state(*simulation_, !simulation_->left_text().empty()));
+    if (const auto figures = records_.figures(*simulation_, sim::ground_height_of(*simulation_))) {
+      const auto of_maps = sim::named(*figures);
+      numbers.insert(numbers.end(), of_maps.begin(), of_maps.end());
+    }
+    return numbers;
+  }
+
+  [[nodiscard]] std::vector<FieldDescription> maps() const override {
+    std::vector<FieldDescription> all;
+    for (const sim::MapKind& kind : sim::map_kinds()) {
+      if (records_.maps() != nullptr) {
+        all.push_back({kind.name, kind.unit, kind.description, 1});
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] Raster map(const std::string& name) const override {
+    const std::vector<sim::MapKind>& kinds = sim::map_kinds();
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return name == kind.name; });
+    if (records_.maps() == nullptr || found == kinds.end()) {
+      throw UserError(fmt::format("no map {}. Only 3D cases have maps; `maps` lists them.", name));
+    }
+    return records_.maps()->raster(*found, sim::MapExtent::whole_grid);
+  }
+
+  [[nodiscard]] NodeTable nodes() const override {
+    NodeTable table{Dim, {}, {}, {}};
+    const mpm::SparseGrid<Dim>& grid = simulation_->grid();
+    const sim::Model<Dim>& model = simulation_->model();
+    for (std::size_t b = 0; simulation_->step_number() > 0 && b < grid.blocks().size(); ++b) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+        const auto& record = simulation_->nodes().momentum(b, k);
+        const double mass = record[mpm::MomentumLayout<Dim>::mass];
+        if (!(mass > 0.0)) {
+          continue;
+        }
+        Vector<double, Dim> position = mpm::node_position(grid, b, k);
+        if (model.ground) {
+          position[Dim - 1] += model.ground->height(position.template head<Dim - 1>());
+        }
+        table.mass.push_back(mass);
+        for (int a = 0; a < Dim; ++a) {
+          table.position.push_back(position[a] + model.origin[a]);
+          table.velocity.push_back(record[mpm::MomentumLayout<Dim>::momentum + static_cast<std::size_t>(a)] / mass);
+        }
+      }
+    }
+    return table;
+  }
 
   [[nodiscard]] std::vector<FieldDescription> fields() const override {
     std::vector<FieldDescription> all;

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/raster.hpp"
 #include "config/case.hpp"
 #include "run/observer.hpp"
 #include "sim/records/history.hpp"
@@ -23,6 +25,13 @@ struct FieldMemory {
   bool is_integer;    // otherwise double
   std::size_t bytes;  // of a number
   bool may_move;      // by a step, because particles may join: the memory must be copied before
+};
+
+// Nodes with mass in the last step: position in the coordinates of the case [m], mass [kg] and velocity [m/s] at its
+// start, one row of `dimension` numbers per node.
+struct NodeTable {
+  std::size_t dimension;
+  std::vector<double> position, mass, velocity;
 };
 
 struct FieldDescription {
@@ -53,6 +62,15 @@ class LiveRun {
   [[nodiscard]] virtual bool has_basal_law() const = 0;
   // Rows so far, beginning with the state at t = 0; names are those of history.csv.
   [[nodiscard]] virtual const std::vector<sim::HistoryRow>& history() const = 0;
+
+  // Row of the present state.
+  [[nodiscard]] virtual sim::HistoryRow row() const = 0;
+  // State and results so far, with the names of run.json.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> key_numbers() const = 0;
+  // The maps, none in 2D; and a map of the state so far. Throws UserError for an unknown name.
+  [[nodiscard]] virtual std::vector<FieldDescription> maps() const = 0;
+  [[nodiscard]] virtual Raster map(const std::string& name) const = 0;
+  [[nodiscard]] virtual NodeTable nodes() const = 0;
 
   [[nodiscard]] virtual std::vector<FieldDescription> fields() const = 0;
   // Throws UserError for an unknown name.

@@ -273,20 +273,11 @@ void RunOutput<Dim>::write_maps(const Simulation& simulation) {
 // Key figures of the run so far, for run.json.
 template <int Dim>
 void RunOutput<Dim>::add_figures(const Simulation& simulation) {
-  const auto height = [&](double x, double y) {
-    typename terrain::Surface<Dim>::Point point;
-    point[0] = x - simulation.model().origin[0];
-    if constexpr (Dim == 3) {
-      point[1] = y - simulation.model().origin[1];
-    }
-    return simulation.model().ground ? simulation.model().ground->height(point) + simulation.model().origin[Dim - 1]
-                                     : std::nan("");
-  };
   end_state_ = sim::end_state(simulation, slide_left_);
   provenance_.at_rest = end_state_.is_known ? std::optional(end_state_.at_rest) : std::nullopt;
   provenance_.warnings = sim::warnings_of(end_state_, provenance_.status == "done");
   provenance_.figures = sim::named(end_state_);
-  if (const auto figures = records_.figures(simulation, height)) {
+  if (const auto figures = records_.figures(simulation, sim::ground_height_of(simulation))) {
     const auto of_maps = sim::named(*figures);
     provenance_.figures.insert(provenance_.figures.end(), of_maps.begin(), of_maps.end());
   }
