@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from thawslide._core import version as __version__
     from thawslide.basal_law import ContactNodes
     from thawslide.case import Case
+    from thawslide.logger import Logger
     from thawslide.new_cases import new_case
     from thawslide.reports import report
     from thawslide.runs import block, resume, run
@@ -24,6 +25,7 @@ __all__ = [
     "ContactNodes",
     "DeviceError",
     "History",
+    "Logger",
     "NotInRunError",
     "ReportError",
     "Run",
@@ -55,6 +57,7 @@ _HOMES = {
     "Case": "case",
     "ContactNodes": "basal_law",
     "DeviceError": "_core",
+    "Logger": "logger",
     "RunError": "_core",
     "Simulation": "simulation",
     "UserError": "_core",
@@ -67,6 +70,10 @@ _HOMES = {
     "scarp": "scarps.release",
     "sweep": "sweeps.api",
 }
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 def __getattr__(name: str) -> Any:

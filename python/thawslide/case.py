@@ -7,7 +7,8 @@ import json
 import math
 import tempfile
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
@@ -16,6 +17,8 @@ from typing import Any
 from thawslide import _core
 
 __all__ = ["Case"]
+
+_NAMED_TABLES = ("body", "contact", "frame", "material", "probe", "substrate")  # of tables with names of the user
 
 
 def toml_text(value: object) -> str:
@@ -39,6 +42,24 @@ def toml_text(value: object) -> str:
     )
 
 
+def _keys(table: str, part: Mapping[str, object]) -> Iterator[tuple[str, object]]:
+    """Yield the keys of a table with their values, and those of the tables in it."""
+    for key, value in part.items():
+        if isinstance(value, Mapping) and table in _NAMED_TABLES:
+            yield from _keys(f"{table}.{key}", value)
+        else:
+            yield f"{table}.{key}", value
+
+
+@contextmanager
+def without_options() -> Iterator[None]:
+    """Word errors of changed keys without the option of the command line that changes them."""
+    try:
+        yield
+    except _core.UserError as error:
+        raise _core.UserError(str(error).replace("--set ", "")) from None
+
+
 class Case:
     """A valid case: the keys of a case file, some of them replaced.
 
@@ -47,10 +68,23 @@ class Case:
     """
 
     def __init__(self, file: str | PathLike[str], changes: Mapping[str, object] | None = None) -> None:
-        """Read a case file, or the case.toml of a folder. `changes` replaces keys; paths in it may lie anywhere.
+        """Read a case file, or the case.toml of a folder.
 
         The case keeps the text of its files, and the absolute paths of all others: later changes of these files or of
         the working directory do not affect it.
+
+        Parameters
+        ----------
+        file : str or path
+            Case file, or its folder.
+        changes : mapping, optional
+            Keys to replace, with their values. Paths in it may lie anywhere.
+
+        Raises
+        ------
+        UserError
+            If the case is not valid; the message names file and line.
+
         """
         self._files = _core.read_case_files(str(Path(file).absolute()))
         self._sets: dict[str, tuple[str, str]] = {}  # values as TOML, and the folders of their paths
@@ -58,15 +92,66 @@ class Case:
 
     @classmethod
     def from_text(cls, text: str, changes: Mapping[str, object] | None = None) -> Case:
-        """Read a case from the text of a case file. Its files must be given in `changes`, with paths."""
+        """Read a case from the text of a case file.
+
+        Parameters
+        ----------
+        text : str
+            The text. Files that it names must be given in `changes` instead, with paths.
+        changes : mapping, optional
+            Keys to replace.
+
+        Returns
+        -------
+        Case
+            The case.
+
+        Raises
+        ------
+        UserError
+            If the case is not valid.
+
+        """
         with tempfile.TemporaryDirectory(prefix="thawslide-") as folder:
             (Path(folder) / "case.toml").write_text(text, encoding="utf-8")
             return cls(folder, changes)
 
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Mapping[str, object]]) -> Case:
+        """Make a case from its tables.
+
+        Parameters
+        ----------
+        values : mapping
+            Tables by name, such as {"grid": {"cell": 5.0}}. Paths are relative to the working directory.
+
+        Returns
+        -------
+        Case
+            The case.
+
+        Raises
+        ------
+        UserError
+            If the case is not valid.
+        TypeError
+            For a value that no case file has.
+
+        Examples
+        --------
+        >>> case = Case("cases/block/e100.toml")
+        >>> Case.from_dict(tomllib.loads(case.to_toml()))["grid.cell"] == case["grid.cell"]
+        True
+
+        """
+        changes = {key: value for table, part in values.items() for key, value in _keys(table, part)}
+        return cls.from_text("[case]\n", changes)
+
     @cached_property
     def _core(self) -> _core.Case:
         sets = [(f"{key}={text}", folder) for key, (text, folder) in self._sets.items()]
-        return _core.case_of(self._files, sets)
+        with without_options():
+            return _core.case_of(self._files, sets)
 
     @cached_property
     def _values(self) -> dict[str, Any]:

@@ -48,6 +48,9 @@ class History(Mapping[str, Numbers]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def __repr__(self) -> str:
+        return f"History({self.file!r}, {self.rows} rows, {len(self)} columns)"
+
     def to_pandas(self) -> pd.DataFrame:
         """Return the columns as a pandas.DataFrame with one row per time."""
         import pandas as pd  # at first use: the report starts faster without it

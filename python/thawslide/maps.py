@@ -19,6 +19,7 @@ from rasterio.errors import NotGeoreferencedWarning, RasterioError
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.run_folder import Numbers, Run
 from thawslide.text_files import is_file
+from thawslide.units import cf_unit
 
 if TYPE_CHECKING:
     import xarray
@@ -163,7 +164,7 @@ class Map:
             self.values,
             coords={"y": self.grid.y, "x": self.grid.x},
             dims=("y", "x"),
-            attrs={"units": self.unit, "long_name": self.description},
+            attrs={"units": cf_unit(self.unit), "long_name": self.description},
         )
         if self.wkt:
             with suppress(ImportError):

@@ -28,17 +28,49 @@ def new_case(
     largest_volume: float | None = None,
     on_message: Callable[[str], None] = print_message,
 ) -> Case:
-    """Create a case folder from a DEM and a release area, as `thawslide new`, and return the case.
+    """Create a case folder from a DEM and a release area, as `thawslide new`.
 
-    dem: GeoTIFF or ESRI ASCII file, in projected metres. release: polygons (Shapefile, GeoPackage, GeoJSON), or a
-    raster of the thickness. folder: the folder to create. thickness: vertical thickness of the polygons [m], by default
-    their attribute `thickness`. cut: cut the release out of the DEM, which is then the surface before the slide; by
-    default, the release is put on top of the DEM. crs: coordinate reference system of a DEM whose file has none, for
-    example "EPSG:31287". reach_angle: the domain includes all terrain below a line that descends at this angle from the
-    top of the release, 1 to 45 degrees, by default 8. cell: size of the grid cells [m], by default that of
-    `resolution`: "quick", "standard" or "fine". largest_volume: confirms a release above the usual limit of
-    `body.slide.largest_volume` [m3]. on_message: receives the lines of the command. Raises UserError with the message
-    of the command line, which names the options.
+    Parameters
+    ----------
+    dem : str or path
+        GeoTIFF or ESRI ASCII file, in projected metres.
+    release : str or path
+        Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness.
+    folder : str or path
+        The folder to create.
+    thickness : float, optional
+        Vertical thickness of the polygons [m], by default their attribute `thickness`.
+    cut : bool
+        Cut the release out of the DEM, which is then the surface before the slide; by default, the release is put
+        on top of the DEM.
+    crs : str, optional
+        Coordinate reference system of a DEM whose file has none, for example "EPSG:31287".
+    reach_angle : float, optional
+        The domain includes all terrain below a line that descends at this angle from the top of the release, 1 to
+        45 degrees, by default 8.
+    cell : float, optional
+        Size of the grid cells [m], by default that of `resolution`.
+    resolution : str, optional
+        "quick", "standard" or "fine".
+    largest_volume : float, optional
+        Confirms a release above the usual limit of `body.slide.largest_volume` [m3].
+    on_message : callable
+        Receives the lines of the command.
+
+    Returns
+    -------
+    Case
+        The case in the folder.
+
+    Raises
+    ------
+    UserError
+        With the message of the command line, which names its options.
+
+    Examples
+    --------
+    >>> case = new_case("dem.tif", "release.gpkg", "my-slide", thickness=20.0)  # doctest: +SKIP
+
     """
     options = {
         "--thickness": thickness,

@@ -55,6 +55,9 @@ class Run:
         self.warnings: list[str] = []
         self._skip_damaged = skip_damaged
 
+    def __repr__(self) -> str:
+        return f"Run({str(self.folder)!r})"
+
     @cached_property
     def case(self) -> Case:
         """The resolved case file, as nested dictionaries."""

@@ -73,12 +73,47 @@ def run(
     device: str = "cpu",
     progress: bool = True,
 ) -> Run:
-    """Run a case to its end in a folder, as `thawslide run`, and return the run.
+    """Run a case to its end in a folder, as `thawslide run`.
 
-    output: the folder, by default runs/NAME; overwrite: replace the run in it. threads: those to use at most; 0: all
-    cores. device: "cpu", "gpu" or "auto". Raises UserError before any file is written, RunError if the run fails,
-    WriteError if a file cannot be written, DeviceError if a GPU fails, and KeyboardInterrupt at Ctrl-C; results so far
-    are complete in each case, and `resume` continues the run.
+    Parameters
+    ----------
+    case : Case, str or path
+        The case, its file or its folder.
+    output : str or path, optional
+        The folder, by default runs/NAME.
+    overwrite : bool
+        Replace the run in the folder.
+    threads : int
+        Threads to use at most; 0: all cores.
+    device : str
+        "cpu", "gpu" or "auto".
+    progress : bool
+        Print progress and all lines of the run; otherwise warnings and notes only.
+
+    Returns
+    -------
+    Run
+        The run in its folder.
+
+    Raises
+    ------
+    UserError
+        Before any file is written.
+    RunError
+        If the run fails.
+    WriteError
+        If a file cannot be written.
+    DeviceError
+        If a GPU fails.
+    KeyboardInterrupt
+        At Ctrl-C. Results so far are complete in each case, and `resume` continues the run.
+
+    Examples
+    --------
+    >>> done = run("cases/block/e100.toml", "runs/block", overwrite=True, progress=False)
+    >>> done.is_complete
+    True
+
     """
     case = case if isinstance(case, Case) else Case(case)
     folder = _core.run_folder(case._core) if output is None else fspath(output)
@@ -96,7 +131,32 @@ def resume(
     device: str = "cpu",
     progress: bool = True,
 ) -> Run:
-    """Continue a run from its checkpoint to its end, as `thawslide resume`. Raises as `run`."""
+    """Continue a run from its checkpoint to its end, as `thawslide resume`.
+
+    Parameters
+    ----------
+    folder : str or path
+        The folder of the run.
+    changes : mapping, optional
+        Keys that change for the rest of the run, with their values.
+    threads, device, progress
+        As in `run`.
+
+    Returns
+    -------
+    Run
+        The run.
+
+    Raises
+    ------
+    UserError, RunError, WriteError, DeviceError
+        As `run`.
+
+    Examples
+    --------
+    >>> done = resume("runs/block", {"time.end": 2.0})  # doctest: +SKIP
+
+    """
     require_threads(threads)
     lines = _Lines(progress)
     sets = [f"{key}={toml_text(value)}" for key, value in (changes or {}).items()]
@@ -105,7 +165,32 @@ def resume(
 
 
 def block(case: Case | str | PathLike[str], *, threads: int = 1) -> pd.DataFrame:
-    """Simulate a case as a rigid block, as `thawslide block`, and return its rows. Raises UserError."""
+    """Simulate a case as a rigid block, as `thawslide block`.
+
+    Parameters
+    ----------
+    case : Case, str or path
+        The case, its file or its folder.
+    threads : int
+        Threads to use at most.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per time.
+
+    Raises
+    ------
+    UserError
+        For an invalid case, or one without a block.
+
+    Examples
+    --------
+    >>> rows = block("cases/incline/D.toml")
+    >>> bool(rows["velocity_m_s"].max() > 0.0)
+    True
+
+    """
     require_threads(threads)
     case = case if isinstance(case, Case) else Case(case)
     return pd.DataFrame(_core.block(case._core, _Lines(False), threads))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from os import PathLike
 from typing import Any, cast
 
@@ -15,20 +16,61 @@ from numpy.typing import NDArray
 from thawslide import _core
 from thawslide.basal_law import BasalLaw, CheckedLaw
 from thawslide.case import Case, toml_text
+from thawslide.maps import Grid, Map
+from thawslide.units import cf_unit
 
-__all__ = ["Field", "Simulation"]
+__all__ = ["Field", "LiveMaps", "Nodes", "Simulation"]
 
 _CHUNK = 0.1  # wall-clock time between two looks at signals [s]
 
 
 class Field:
-    """A particle field: name, unit, meaning and number of components."""
+    """A particle field: name, unit (as in the CF conventions), meaning and number of components."""
 
     def __init__(self, core: _core.FieldDescription) -> None:
-        self.name, self.unit, self.text, self.components = core.name, core.unit, core.text, core.components
+        self.name, self.unit, self.text, self.components = core.name, cf_unit(core.unit), core.text, core.components
 
     def __repr__(self) -> str:
         return f"Field({self.name!r}, unit={self.unit!r}, components={self.components}, {self.text!r})"
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """The nodes of the grid that had mass in the last step; the state is that at its start."""
+
+    position: NDArray[np.float64]  # in the coordinates of the case [m], shape (nodes, dimension)
+    mass: NDArray[np.float64]  # [kg], per metre of width in 2D
+    velocity: NDArray[np.float64]  # [m/s], shape (nodes, dimension)
+
+    def __repr__(self) -> str:
+        return f"Nodes({len(self.mass)} nodes, {float(np.sum(self.mass)):.6g} kg)"
+
+
+class LiveMaps(Mapping[str, Map]):
+    """The maps of a simulation so far by name; each is made at every access. Empty in 2D."""
+
+    def __init__(self, core: _core.LiveRun) -> None:
+        self._core = core
+        self._kinds = {each.name: each for each in core.maps}
+
+    def __getitem__(self, name: str) -> Map:
+        """Return a map; KeyError for an unknown name."""
+        if name not in self._kinds:
+            raise KeyError(f"{name} (found: {', '.join(self._kinds) or 'none, because only 3D cases have maps'})")
+        kind = self._kinds[name]
+        values, x, y, cell_x, cell_y, crs = self._core.map(name)
+        numbers = cast(NDArray[np.float64], values)
+        rows, columns = numbers.shape
+        return Map(Grid(x, y, cell_x, cell_y, columns, rows), numbers, kind.unit, kind.text, crs, crs)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._kinds)
+
+    def __len__(self) -> int:
+        return len(self._kinds)
+
+    def __repr__(self) -> str:
+        return f"LiveMaps({', '.join(self._kinds)})"
 
 
 class _Messages(_core.Observer):
@@ -73,12 +115,34 @@ class Simulation:
     ) -> None:
         """Set up the particles of a case at t = 0, and settle them if the case requests it.
 
-        threads: those to use at most; 0: the cores that this process may use. on_message: receives warnings and notes
-        as lines. basal_law: a function that replaces the basal strength of the case, for studies. It is called once in
-        each step with the contact nodes, and returns their shear strengths [Pa]. The simulation is then slower, and it
-        is reproducible if the function is. A checkpoint does not contain the function. If the function raises an
-        exception, the simulation remains at the end of the previous step. Raises UserError, also for a basal law in a
-        case without terrain or mechanics.
+        Parameters
+        ----------
+        case : Case, str or path
+            The case, its file or its folder.
+        threads : int
+            Threads to use at most; 0: the cores that this process may use.
+        on_message : callable
+            Receives warnings and notes as lines.
+        basal_law : callable, optional
+            Replaces the basal strength of the case, for studies. It is called once in each step with the
+            `ContactNodes`, and returns their shear strengths [Pa]. The simulation is then slower, and reproducible
+            if the function is. A checkpoint does not contain the function. If it raises an exception, the
+            simulation remains at the end of the previous step.
+
+        Raises
+        ------
+        UserError
+            For an invalid case, and for a basal law in a case without terrain or mechanics.
+        RunError
+            If settling fails.
+
+        Examples
+        --------
+        >>> simulation = Simulation("cases/block/e100.toml")
+        >>> simulation.run(until=0.1)
+        >>> simulation.maps
+        LiveMaps()
+
         """
         require_threads(threads)
         self.case = case.copy() if isinstance(case, Case) else Case(case)
@@ -120,13 +184,39 @@ class Simulation:
 
     @property
     def origin(self) -> NDArray[np.float64]:
-        """The lower corner of the domain [m], to which the field `position` is relative."""
+        """The lower corner of the domain [m], to which `blocks("position")` is relative."""
         return np.array(self._core.origin)
 
     @property
     def history(self) -> pd.DataFrame:
         """The history so far, with the columns of history.csv."""
         return pd.DataFrame(self._core.history())
+
+    @property
+    def row(self) -> pd.Series:
+        """The present state as a row of the history, also between two rows."""
+        return pd.DataFrame(self._core.row()).iloc[0]
+
+    @property
+    def front(self) -> float:
+        """The position of the front [m]: along the path in 3D, x in 2D; nan while a 3D slide has no path."""
+        return float(self.row["front_position_m"])
+
+    @property
+    def key_numbers(self) -> dict[str, float]:
+        """State and results so far, such as `travel_distance_m` and `affected_area_m2`: those of run.json."""
+        return dict(self._core.key_numbers())
+
+    @property
+    def maps(self) -> LiveMaps:
+        """The maps so far by name, such as `simulation.maps["max_thickness"]`; empty in 2D."""
+        return LiveMaps(self._core)
+
+    @property
+    def nodes(self) -> Nodes:
+        """The nodes of the grid in the last step; none before the first step."""
+        position, mass, velocity = (cast(NDArray[np.float64], each) for each in self._core.nodes())
+        return Nodes(position, mass, velocity)
 
     @property
     def fields(self) -> dict[str, Field]:
@@ -147,10 +237,13 @@ class Simulation:
     def field(self, name: str) -> NDArray[Any]:
         """Return a field by particle, in the order of memory: shape (particles) or (particles, components).
 
-        A scalar is that of `blocks`. A vector or tensor is a copy.
+        A scalar is that of `blocks`. A vector or tensor is a copy; `position` is in the coordinates of the case.
         """
         view = self.blocks(name)
-        return view if view.ndim == 1 else view.reshape(-1, view.shape[2])[: self.particle_count].copy()
+        if view.ndim == 1:
+            return view
+        values = view.reshape(-1, view.shape[2])[: self.particle_count].copy()
+        return values + self.origin if name == "position" else values
 
     def step(self, steps: int = 1) -> None:
         """Perform a number of time steps, fewer if the run ends."""
@@ -166,10 +259,29 @@ class Simulation:
         every: float | None = None,
         every_steps: int | None = None,
     ) -> None:
-        """Advance to the first step that ends at or after a time [s], by default to the end of the run.
+        """Advance to the first step that ends at or after a time, by default to the end of the run.
 
-        callback: called with this simulation after every interval `every` of simulated time [s], or after every number
-        of steps `every_steps`, and at the end; it ends the call early by returning a true value.
+        Parameters
+        ----------
+        until : float, optional
+            Time [s].
+        callback : callable, optional
+            Called with this simulation after every interval, and at the end; it ends the call early by returning a
+            true value. A `Logger` is one.
+        every : float, optional
+            Interval of the calls in simulated time [s].
+        every_steps : int, optional
+            Interval of the calls in steps.
+
+        Raises
+        ------
+        UserError
+            For a callback without an interval.
+        RunError
+            If a step fails, after which no step is possible.
+        KeyboardInterrupt
+            At Ctrl-C; the simulation remains usable.
+
         """
         target = math.inf if until is None else until
         if math.isnan(target):
@@ -208,6 +320,10 @@ class Simulation:
         """Return to a state of this case, of this process or another one; UserError for any other state."""
         self._core.restore(checkpoint, self.threads)
         self._failed = False
+
+    def __repr__(self) -> str:
+        state = "failed" if self._failed else "done" if self.is_done else f"of {self.case.end:g} s"
+        return f"Simulation({self.case.name!r}, t = {self.time:g} s {state}, {self.particle_count} particles)"
 
     def _require_intact(self) -> None:
         if self._failed:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, quoted
 from thawslide.text_files import is_file
+from thawslide.units import cf_unit
 
 _COMPONENTS = {"velocity": {3}, "displacement": {3}, "stress": {6}, "mass": {1}, "volume": {1}, "in_band": {1}}
 _ANY = {1, 3, 6}  # other fields: scalars, vectors and tensors
@@ -80,9 +81,9 @@ class Snapshot(Mapping[str, NDArray[Any]]):
         return other
 
     def unit(self, name: str) -> str:
-        """Return the unit of a field in the file, "" without one."""
+        """Return the unit of a field as in the CF conventions, "1" without one."""
         self[name]
-        return self._units[name]
+        return cf_unit(self._units[name])
 
 
 def snapshot_time(path: Path) -> float:

@@ -24,3 +24,10 @@ VOLUMES: Units = {
 }
 ANGLES: Units = {"degrees": (1.0, 0.0), "deg": (1.0, 0.0), "°": (1.0, 0.0), "rad": (math.degrees(1.0), 0.0)}
 RATIOS: Units = {"-": (1.0, 0.0), "1": (1.0, 0.0), "": (1.0, 0.0), "%": (1e-2, 0.0)}
+
+_CF = {"C": "degC", "-": "1", "": "1"}  # other units are written as in the conventions
+
+
+def cf_unit(unit: str) -> str:
+    """Return a unit as in the CF conventions, which tools such as xarray and pint read."""
+    return _CF.get(unit, unit)

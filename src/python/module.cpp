@@ -191,6 +191,14 @@ nb::dict columns_of(const std::vector<sim::HistoryRow>& rows) {
   return columns;
 }
 
+// Position, mass and velocity of nodes.
+nb::tuple nodes_of(Live& self) {
+  const run::NodeTable table = self.use(1, [](run::LiveRun& live) { return live.nodes(); });
+  const std::size_t count = table.mass.size();
+  return nb::make_tuple(copied(table.position, {count, table.dimension}), copied(table.mass, {count}),
+                        copied(table.velocity, {count, table.dimension}));
+}
+
 }  // namespace
 
 }  // namespace thawslide::python
@@ -265,6 +273,27 @@ NB_MODULE(_core, module) {
           "history",
           [](Live& self) { return columns_of(self.use(1, [](run::LiveRun& live) { return live.history(); })); },
           nb::sig("def history(self) -> dict[str, object]"))
+      .def(
+          "row", [](Live& self) { return columns_of({self.use(1, [](run::LiveRun& live) { return live.row(); })}); },
+          nb::sig("def row(self) -> dict[str, object]"))
+      .def("key_numbers",
+           [](Live& self) {
+             nb::dict numbers;
+             for (const auto& [name, value] : self.use(1, [](run::LiveRun& live) { return live.key_numbers(); })) {
+               numbers[name.c_str()] = value;
+             }
+             return numbers;
+           })
+      .def_prop_ro("maps", [](const Live& self) { return self.get().maps(); })
+      .def(
+          "map",
+          [](Live& self, const std::string& name) {
+            const Raster map = self.use(1, [&](run::LiveRun& live) { return live.map(name); });
+            const auto rows = static_cast<std::size_t>(map.rows), columns = static_cast<std::size_t>(map.columns);
+            return nb::make_tuple(copied(map.values, {rows, columns}), map.x, map.y, map.cell_x, map.cell_y, map.crs);
+          },
+          nb::sig("def map(self, name: str, /) -> tuple[object, float, float, float, float, str]"))
+      .def("nodes", &nodes_of, nb::sig("def nodes(self) -> tuple[object, object, object]"))
       .def("advance", &Live::advance, "until"_a, "steps"_a, "seconds"_a, "threads"_a, "law"_a.none())
       .def("checkpoint",
            [](Live& self, int threads) {

@@ -27,7 +27,7 @@ def test_a_2d_run_has_a_table_and_no_maps(slope: Path, tmp_path: Path) -> None:
     pd.testing.assert_frame_equal(run.history.to_pandas(), expected, check_exact=True)
     shot = run.snapshot(-1)
     assert shot.time == pytest.approx(1.0) and shot.points.shape == (len(shot["mass"]), 3)
-    assert shot.unit("temperature") == "C"
+    assert shot.unit("temperature") == "degC"
     with pytest.raises(NotInRunError, match="Only a 3D run on a DEM writes maps"):
         _ = run.maps
 

@@ -99,17 +99,38 @@ def scarp(
     volume: float | None = None,
     crs: str | None = None,
 ) -> Release:
-    """Build a release from a failure surface below a DEM, as `thawslide scarp`, and return it.
+    """Build a release from a failure surface below a DEM, as `thawslide scarp`.
 
-    dem: GeoTIFF or ESRI ASCII file, in a map projection in metres. surface: a `Plane`, several planes (the mass above
-    all of them), an `Ellipsoid` or an `Slbl`. within: file of polygons (GeoPackage, GeoJSON, Shapefile or KML) that
-    limit the release; an `Slbl` requires it. Planes without `within` release the part that contains the point of the
-    first plane. volume: volume of the release [m3], which determines the depth of the planes (all are shifted equally),
-    the depth of the ellipsoid or the parameter C of the SLBL; it is reached within 0.1 %. crs: coordinate reference
-    system of the DEM, for example "EPSG:31287", by default that of its file. Notes on the files are in `dem.notes` of
-    the result. Raises ReportError, with the message of the command line, for invalid numbers or files, an outline
-    outside the DEM or with cells without data, no cell of the DEM above the surface, and a volume that cannot be
-    reached.
+    Parameters
+    ----------
+    dem : str or path
+        GeoTIFF or ESRI ASCII file, in a map projection in metres.
+    surface : Plane, sequence of Plane, Ellipsoid or Slbl
+        Failure surface; several planes release the mass above all of them.
+    within : str or path, optional
+        File of polygons (GeoPackage, GeoJSON, Shapefile or KML) that limit the release; an `Slbl` requires it.
+        Planes without it release the part that contains the point of the first plane.
+    volume : float, optional
+        Volume of the release [m3], reached within 0.1 %. It determines the depth of the planes (all are shifted
+        equally), the depth of the ellipsoid, or the parameter C of the SLBL.
+    crs : str, optional
+        Coordinate reference system of the DEM, for example "EPSG:31287", by default that of its file.
+
+    Returns
+    -------
+    Release
+        The release; notes on the files are in its `dem.notes`.
+
+    Raises
+    ------
+    ReportError
+        With the message of the command line: invalid numbers or files, an outline outside the DEM or with cells
+        without data, no cell of the DEM above the surface, or a volume that cannot be reached.
+
+    Examples
+    --------
+    >>> release = scarp("dem.tif", Plane(x=2600100, y=1198400, dip=35, direction=120))  # doctest: +SKIP
+
     """
     terrain = read_dem(Path(dem), crs)
     if volume is not None:

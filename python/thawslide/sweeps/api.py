@@ -76,17 +76,64 @@ def sweep(
     retry_failed: bool = False,
     progress: bool = True,
 ) -> pd.DataFrame:
-    """Run a case many times with varied keys, as `thawslide sweep`, and return the table of members.
+    """Run a case many times with varied keys, as `thawslide sweep`.
 
-    cases: a case, or several as values of the variable `case`. output: the folder of the sweep, by default
-    runs/NAME-sweep; the same call continues an interrupted sweep in it. vary: lists of values. ranges, normal,
-    lognormal: pairs of numbers that describe distributions. sample: METHOD:N, without it the design is full factorial.
-    seed: seed of the sample. tie: expressions of other keys by key. correlate: rank correlations by pairs of keys.
-    block: simulate a rigid block instead. columns: expressions of history columns by name. keep: "maps", "all" or
-    "none". results: columns whose sensitivity the page shows. thresholds: thresholds of the probability maps, by
-    "thickness" and "speed". workers: processes, 0: one per core. scheduler: address of a Dask scheduler. max_failures:
-    the sweep ends if more members fail. retry_failed: repeats members that have failed. Raises UserError before any
-    member runs, and ReportError for an invalid design.
+    Parameters
+    ----------
+    cases : path, or sequence of paths
+        A case, or several as values of the variable `case`.
+    output : str or path, optional
+        Folder of the sweep, by default runs/NAME-sweep; the same call continues an interrupted sweep in it.
+    vary : mapping, optional
+        Lists of values by key.
+    ranges, normal, lognormal : mapping, optional
+        Pairs of numbers that describe distributions, by key.
+    sample : str, optional
+        METHOD:N; without it the design is full factorial.
+    seed : int
+        Seed of the sample.
+    tie : mapping, optional
+        Expressions of other keys, by key.
+    correlate : mapping, optional
+        Rank correlations by pairs of keys.
+    block : bool
+        Simulate a rigid block instead.
+    columns : mapping, optional
+        Expressions of history columns, by name.
+    keep : str
+        "maps", "all" or "none".
+    results : sequence of str
+        Columns whose sensitivity the page shows.
+    thresholds : mapping, optional
+        Thresholds of the probability maps, by "thickness" and "speed".
+    workers : int
+        Processes; 0: one per core.
+    scheduler : str, optional
+        Address of a Dask scheduler.
+    max_failures : int, optional
+        The sweep ends if more members fail.
+    retry_failed : bool
+        Repeat members that have failed.
+    progress : bool
+        Print progress.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The table of members, one row each.
+
+    Raises
+    ------
+    UserError
+        Before any member runs, for an invalid case.
+    ReportError
+        For an invalid design.
+
+    Examples
+    --------
+    >>> table = sweep("cases/incline/D.toml", "runs/angles", vary={"basal.friction_angle": [20, 25]},
+    ...               block=True, progress=False)  # doctest: +SKIP
+
     """
     files = [cases] if isinstance(cases, str | PathLike) else list(cases)
     variables: list[Variable] = [levels(key, list(values)) for key, values in (vary or {}).items()]

@@ -2,6 +2,7 @@
 // empty in 2D.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -22,6 +23,20 @@ struct Front {
   double travelled;  // distance along the path from the rear end of the same bodies at t = 0 [m]
   double top;        // elevation of the highest point of these bodies at t = 0 [m]
 };
+
+// Elevation of the ground of a simulation at x, y, all in the case's coordinates [m]; NaN without terrain. The
+// simulation must outlive it.
+template <int Dim>
+[[nodiscard]] std::function<double(double x, double y)> ground_height_of(const Simulation<Dim>& simulation) {
+  return [&model = simulation.model()](double x, double y) {
+    typename terrain::Surface<Dim>::Point point;
+    point[0] = x - model.origin[0];
+    if constexpr (Dim == 3) {
+      point[1] = y - model.origin[1];
+    }
+    return model.ground ? model.ground->height(point) + model.origin[Dim - 1] : std::nan("");
+  };
+}
 
 template <int Dim>
 class RunRecords {

@@ -1,0 +1,116 @@
+"""Maps, front, key numbers and nodes of a simulation; cases from dictionaries; loggers; texts of objects and errors."""
+
+import math
+import pickle
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import thawslide
+from thawslide import Case, Logger, Run, Simulation, UserError
+
+VALLEY = ROOT / "cases" / "valley3d"
+
+
+def silent(_line: str) -> None:
+    """Ignore a warning."""
+
+
+def test_nodes_have_the_mass_and_momentum_of_the_particles(slope: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    assert len(simulation.nodes.mass) == 0
+    simulation.step(50)
+    mass, velocity = simulation.field("mass"), simulation.field("velocity")
+    simulation.step()
+    nodes = simulation.nodes
+    assert nodes.mass.sum() == pytest.approx(mass.sum(), rel=1e-12)
+    momentum = (nodes.mass[:, None] * nodes.velocity).sum(axis=0)
+    np.testing.assert_allclose(momentum, (mass[:, None] * velocity).sum(axis=0), rtol=1e-10)
+    cell = float(simulation.case["grid.cell"])
+    particles = simulation.field("position")
+    assert np.all(nodes.position.min(axis=0) > particles.min(axis=0) - 3.0 * cell)
+    assert np.all(nodes.position.max(axis=0) < particles.max(axis=0) + 3.0 * cell)
+
+
+def test_positions_are_in_the_coordinates_of_the_case(slope: Path, tmp_path: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
+    points = run.snapshot(0, fields=["id"])
+    order = np.argsort(points["id"]), np.argsort(simulation.field("id"))
+    np.testing.assert_array_equal(simulation.field("position")[order[1]], points.points[order[0], :2])
+    raw = simulation.blocks("position").reshape(-1, 2)[: simulation.particle_count]
+    np.testing.assert_array_equal(raw + simulation.origin, simulation.field("position"))
+
+
+def test_state_of_a_2d_simulation(slope: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    simulation.run(until=0.5)
+    last = simulation.history.iloc[-1]
+    assert simulation.row["time_s"] == simulation.time == last["time_s"]
+    assert simulation.front == last["front_position_m"]
+    assert dict(simulation.maps) == {} and simulation.key_numbers["dilation_fraction"] < 0.01
+    with pytest.raises(KeyError, match="only 3D cases have maps"):
+        simulation.maps["max_thickness"]
+    assert simulation.fields["temperature"].unit == "degC"
+
+
+def test_maps_and_key_numbers_are_those_of_the_run(tmp_path: Path) -> None:
+    case = Case(VALLEY, {"time.end": 0.4, "grid.cell": 40.0})
+    run: Run = thawslide.run(case, tmp_path / "run", threads=1, progress=False)
+    simulation = Simulation(case, threads=1, on_message=silent)
+    simulation.run()
+    for name, live in simulation.maps.items():
+        written = run.maps[name]
+        assert live.grid.box == pytest.approx(written.grid.box) and live.unit == written.unit, name
+        np.testing.assert_allclose(live.values, written.values, rtol=1e-6, err_msg=name)
+    numbers = simulation.key_numbers
+    assert numbers["affected_area_m2"] == run.facts["affected_area_m2"] > 0.0
+    assert all(numbers[name] == run.facts[name] for name in numbers if run.facts.get(name) is not None)
+
+
+def test_a_dictionary_is_a_case(slope: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tables = tomllib.loads(slope.read_text())
+    monkeypatch.chdir(slope.parent)
+    case = Case.from_dict(tables)
+    assert tomllib.loads(case.to_toml())["body"] == tomllib.loads(Case(slope).to_toml())["body"]
+    assert case["grid.cell"] == Case(slope)["grid.cell"]
+    with pytest.raises(UserError, match=r"^grid\.cell=-1\.0: grid\.cell is -1"):
+        Case.from_dict(tables | {"grid": tables["grid"] | {"cell": -1.0}})
+    with pytest.raises(TypeError, match="a case has no value of type object"):
+        Case.from_dict({"grid": {"cell": object()}})
+
+
+def test_a_pickled_case_keeps_its_changes(slope: Path) -> None:
+    case = Case(slope, {"basal.friction_angle": 21.0})
+    other = pickle.loads(pickle.dumps(case))
+    assert other["basal.friction_angle"] == 21.0 and other.to_toml() == case.to_toml()
+
+
+def test_messages_of_changes_do_not_name_options_of_the_command_line(slope: Path) -> None:
+    with pytest.raises(UserError) as raised:
+        Case(slope, {"band.thickness": -1.0})
+    assert "--set" not in str(raised.value) and str(raised.value).startswith("band.thickness=-1.0: ")
+
+
+def test_a_logger_records_quantities_at_intervals(slope: Path) -> None:
+    logger = Logger(front_m=lambda simulation: simulation.front, particles=lambda simulation: simulation.particle_count)
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    simulation.run(until=0.5, callback=logger, every=0.1)
+    table = logger.table
+    assert list(table.columns) == ["time_s", "step", "front_m", "particles"]
+    np.testing.assert_allclose(table["time_s"], 0.1 * np.arange(1, 6), atol=1e-9)
+    assert table["front_m"].is_monotonic_increasing and (table["particles"] == simulation.particle_count).all()
+    assert repr(logger) == "Logger(front_m, particles: 5 rows)"
+    assert Logger(front_m=lambda simulation: math.nan).table.empty
+
+
+def test_objects_have_texts(slope: Path, tmp_path: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    assert repr(simulation).startswith("Simulation('") and "t = 0 s of 1 s" in repr(simulation)
+    simulation.step()
+    assert repr(simulation.nodes).startswith("Nodes(") and repr(simulation.maps) == "LiveMaps()"
+    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
+    assert repr(run) == f"Run({str(tmp_path / 'run')!r})"
