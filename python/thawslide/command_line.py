@@ -13,6 +13,7 @@ from thawslide.commands import print_line
 from thawslide.contours import write_contours
 from thawslide.errors import ReportError, quoted
 from thawslide.figures import FIGURES
+from thawslide.messages import LANGUAGES
 from thawslide.reports import LEAST_DPI, MOST_DPI, figure_names, write_pages
 from thawslide.run_folder import Run
 from thawslide.setup_picture import plot_setup_file
@@ -58,7 +59,7 @@ def _pages(given: argparse.Namespace) -> int:
     """Write the page that the arguments select; return the exit code."""
     names = figure_names(given.only)
     runs = [_opened(folder) for folder in given.run]
-    pages = write_pages(runs, given.output, names, given.brief, given.dpi, progress=print_line)
+    pages = write_pages(runs, given.output, names, given.brief, given.dpi, print_line, given.language)
     for run in runs:
         _print_warnings(run)
     for name, reason in pages.faults.items():
@@ -139,7 +140,10 @@ def _parser() -> argparse.ArgumentParser:
         help=f"figures to plot, separated by commas: {', '.join(FIGURES)}",
     )
     parser.add_argument(
-        "--brief", action="store_true", help="two-page summary of a 3D run for non-experts: summary.html, summary.pdf"
+        "--brief", action="store_true", help="two-page summary for non-experts: summary.html, summary.pdf"
+    )
+    parser.add_argument(
+        "--language", choices=LANGUAGES, default=LANGUAGES[0], help="of results and summary (default: en)"
     )
     parser.add_argument(
         "--dpi", type=_dpi, default=150, help="resolution of the figures in dots per inch (default: 150)"

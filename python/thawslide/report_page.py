@@ -1,9 +1,10 @@
-"""Plot the figures of a run and write their page."""
+"""Plot the figures of a run and write their page: results for a client, then all figures, then the diagnosis."""
 
 from __future__ import annotations
 
 import html
 import os
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,20 +17,27 @@ from thawslide.figures.animation import Animation
 from thawslide.figures.style import save_figure
 from thawslide.key_numbers import boiling_note, found_for, key_numbers
 from thawslide.maps import Maps, on_map
+from thawslide.messages import LANGUAGES, Messages
 from thawslide.mobility import mobility_of
 from thawslide.number_text import exact_text, quantity_text
 from thawslide.pages.events import events_part
-from thawslide.pages.facts import facts_of, inputs_of
+from thawslide.pages.facts import facts_of, inputs_of, settings_of
 from thawslide.pages.map_view import map_view
 from thawslide.pages.markup import details, figure_part, file_data, page_frame, table
 from thawslide.pages.notes import ending_note, result_warnings, resume_notes
+from thawslide.pages.results import extent, results
 from thawslide.pages.section_view import section_view
 from thawslide.pages.view import scripts
 from thawslide.run_folder import Run
 from thawslide.targets import KINDS
 from thawslide.time_reference import time_note
 
-VIEW = "interactive view"  # its name among the missing figures
+VIEW, EXTENT = "interactive view", "extent of the results"  # their names among the missing figures
+# Figures of the diagnosis; the others show results.
+_OF_DIAGNOSIS = (
+    "slide_temperature", "base_temperature", "base_pressure", "temperature", "pore_pressure", "band", "base_along",
+    "energy", "entrainment", "water",
+)  # fmt: skip
 
 
 @dataclass
@@ -52,8 +60,11 @@ def make_report(
     names: Sequence[str] | None = None,
     dpi: int = 150,
     progress: Callable[[str], None] = lambda line: None,
+    language: str = LANGUAGES[0],
 ) -> Report:
     """Write figures/NAME.png and report.html into `output` (default: the run folder).
+
+    `language` is that of the results; figures and diagnosis are in English.
 
     Without `names` these are the figures that suit the run. With `names`, the page keeps the other figures in the
     folder. The page lists figures without data or with damaged files; these are an error if `names` requests them.
@@ -78,7 +89,12 @@ def make_report(
                     report.faults.append(name)
                 progress(f"[{number}/{len(chosen)}] {name}: not available: {error}")
         report.kept = _kept_figures(run, output / "figures", report) if names else {}
-        page = _page(run, report, _view(run, report, is_required=not names))
+        say = Messages(language)
+        shown = _part(run, report, EXTENT, not names, lambda: extent(run, say, dpi))
+        view = _part(
+            run, report, VIEW, not names, lambda: (map_view(run) if on_map(run) else section_view(run)).markup()
+        )
+        page = _page(run, report, say, shown, view)
         with atomic_file(report.page) as temporary:
             temporary.write_text(page, encoding="utf-8")
     except OSError as error:
@@ -118,57 +134,79 @@ def _kept_figures(run: Run, folder: Path, report: Report) -> dict[str, Path]:
     return kept
 
 
-def _view(run: Run, report: Report, is_required: bool) -> str:
-    """Return the interactive view, "" without its data; damaged data are a fault only if the view is required."""
+def _part(run: Run, report: Report, name: str, is_required: bool, make: Callable[[], str]) -> str:
+    """Return a part of the page, "" without its data; damaged data are a fault only if the part is required."""
     try:
-        return (map_view(run) if on_map(run) else section_view(run)).markup()
+        return make()
     except ReportError as error:
-        report.missing[VIEW] = str(error)
+        report.missing[name] = str(error)
         if is_required and not isinstance(error, NotInRunError):
-            report.faults.append(VIEW)
+            report.faults.append(name)
     except (ValueError, ArithmeticError, MemoryError) as error:
-        report.missing[VIEW] = f"{run.folder}: cannot be plotted ({error}). Check the values of the run."
+        report.missing[name] = f"{run.folder}: cannot be plotted ({error}). Check the values of the run."
     return ""
 
 
-def _page(run: Run, report: Report, view: str) -> str:
-    title = html.escape(run.title)
-    parts = [
-        f"<h1>{title}</h1>",
-        f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
-        *(f'<p class="note">{html.escape(note)}</p>' for note in _notes(run, report) if note),
+def _page(run: Run, report: Report, say: Messages, shown: str, view: str) -> str:
+    figures = report.figures | report.kept
+    of_results = [name for name in FIGURES if name in figures and name not in _OF_DIAGNOSIS]
+    events = events_part({"this run": mobility_of(run)}) if run.dimension == 3 else ""
+    numbers = [
         "<h2>Key numbers</h2>",
         table(((row.words, row.value, row.remark) for row in key_numbers(run)), "numbers"),
+    ]
+    if run.targets:
+        tables = "\n".join(_target_tables(run))
+        numbers.append(details("Reported values", f"{tables}\n{_times(run)}"))
+    if view:
+        numbers += ['<h2 id="interactive">Interactive view</h2>', view]
+    if events:
+        numbers += ['<h2 id="published-events">Published events</h2>', events]
+    numbers += [_figure(run, name, figures[name]) for name in of_results]
+    if maps := _map_files(run, report.page.parent):
+        numbers += [f'<h2 id="maps">Map files</h2>\n{maps}']
+    links = [("interactive", "Interactive view")] if view else []
+    numbers.insert(0, _links([*links, *((name, _heading(name)) for name in of_results)]))
+    parts = [
+        results(run, say, shown),
+        details(say("details_numbers"), "\n".join(numbers), "numbers"),
+        details(say("details_diagnosis"), "\n".join(_diagnosis(run, report, figures)), "diagnosis"),
+    ]
+    if view or events:
+        parts.append(scripts())
+    return page_frame(html.escape(run.title), "\n".join(parts), is_self_contained=True, language=say.language)
+
+
+def _diagnosis(run: Run, report: Report, figures: dict[str, Path]) -> list[str]:
+    """Return notes, balances, figures of base and budgets, missing figures, inputs, settings and facts of the run."""
+    of_diagnosis = [name for name in _OF_DIAGNOSIS if name in figures]
+    parts = [
+        _links([(name, _heading(name)) for name in of_diagnosis]),
+        *(f'<p class="note">{html.escape(_local(note))}</p>' for note in _notes(run, report) if note),
     ]
     if found := balances(run):
         rows = ((each.words, each.verdict, f"maximum residual {each.percentage}") for each in found)
         parts += ["<h2>Balances</h2>", table(rows, "numbers")]
-    if run.targets:
-        tables = "\n".join(_target_tables(run))
-        parts.append(details("Reported values", f"{tables}\n{_times(run)}"))
-    if view:
-        parts += ['<h2 id="interactive">Interactive view</h2>', view]
-    events = events_part({"this run": mobility_of(run)}) if run.dimension == 3 else ""
-    if events:
-        parts += ['<h2 id="published-events">Published events</h2>', events]
-    figures = report.figures | report.kept
-    shown = [name for name in FIGURES if name in figures]
-    parts += [_figure(run, name, figures[name]) for name in shown]
-    if maps := _map_files(run, report.page.parent):
-        parts += [f'<h2 id="maps">Map files</h2>\n{maps}']
+    parts += [_figure(run, name, figures[name]) for name in of_diagnosis]
     if report.missing:
-        reasons = ((_heading(name), reason) for name, reason in report.missing.items())
+        reasons = ((_heading(name), _local(reason)) for name, reason in report.missing.items())
         parts += ["<h2>Missing figures</h2>", table(reasons, "facts")]
     if inputs := inputs_of(run.facts):
         parts += ['<h2 id="inputs">Input files</h2>', inputs]
+    if settings := settings_of(run):
+        parts += ["<h2>Settings</h2>", "<p>Keys of the case; all others have their defaults.</p>", settings]
     parts += ["<h2>Run information</h2>", *facts_of(run.facts)]
-    links = [("interactive", "Interactive view")] if view else []
-    links += [(name, _heading(name)) for name in shown]
+    return parts
+
+
+def _links(links: list[tuple[str, str]]) -> str:
     anchors = " · ".join(f'<a href="#{name}">{html.escape(words)}</a>' for name, words in links)
-    parts.insert(2, f"<nav>{anchors}</nav>")
-    if view or events:
-        parts.append(scripts())
-    return page_frame(title, "\n".join(parts), is_self_contained=True)
+    return f"<nav>{anchors}</nav>"
+
+
+def _local(text: str) -> str:
+    """Return a text whose absolute paths are without their folders, which are those of one machine."""
+    return re.sub(r"(?<![\w./~-])/(?:[\w.+~-]+/)+", "", text)
 
 
 def _notes(run: Run, report: Report) -> list[str]:

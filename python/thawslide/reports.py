@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thawslide.errors import ReportError, nearest, quoted
 from thawslide.figures import FIGURES
+from thawslide.messages import LANGUAGES
 from thawslide.pages.comparison import make_comparison
 from thawslide.pages.summary import make_summary
 from thawslide.report_page import make_report
@@ -50,18 +51,22 @@ def write_pages(
     brief: bool,
     dpi: int,
     progress: Callable[[str], None] = lambda line: None,
+    language: str = LANGUAGES[0],
 ) -> Pages:
-    """Write the page of one run, its summary if `brief`, or the comparison of several runs."""
+    """Write the page of one run, its summary if `brief`, or the comparison of several runs.
+
+    `language` is that of results and summary.
+    """
     if len(runs) > 1:
-        for option, value in (("--only", names), ("--brief", brief)):
+        for option, value in (("--only", names), ("--brief", brief), ("--language", language != LANGUAGES[0])):
             if value:
                 raise ReportError(f"{option}: allowed with one RUN only (found {len(runs)}). Remove the option.")
         return Pages([("comparison", make_comparison(list(runs), output, dpi, progress=progress))])
     if brief:
         if names:
             raise ReportError("--only: not allowed with --brief. Remove one of the options.")
-        return Pages([("summary", path) for path in make_summary(runs[0], output, dpi)])
-    made = make_report(runs[0], output, names, dpi, progress=progress)
+        return Pages([("summary", path) for path in make_summary(runs[0], output, dpi, language)])
+    made = make_report(runs[0], output, names, dpi, progress, language)
     return Pages([("report", made.page)], {name: made.missing[name] for name in made.faults})
 
 
@@ -72,16 +77,20 @@ def report(
     only: str | Sequence[str] | None = None,
     brief: bool = False,
     dpi: int = 150,
+    language: str = LANGUAGES[0],
 ) -> Path:
     """Write the page of a run with its figures, as `thawslide report`, and return its path.
 
     With other runs, the page compares them. output: the folder of the page, by default that of the first run. only:
-    names of figures to plot again; the page keeps the others. brief: write a two-page summary for non-experts of a 3D
-    run, as a page and a PDF file. dpi: resolution of the figures, 30 to 1200 dots per inch. Damaged files are named on
-    the page, and `Run.warnings` lists them. Raises ReportError.
+    names of figures to plot again; the page keeps the others. brief: write a two-page summary for non-experts, as a
+    page and a PDF file. dpi: resolution of the figures, 30 to 1200 dots per inch. language: of the results and the
+    summary, "en", "de" or "fr". Damaged files are named on the page, and `Run.warnings` lists them. Raises ReportError.
     """
+    if language not in LANGUAGES:
+        allowed = ", ".join(LANGUAGES)
+        raise ReportError(f"language: unknown (found {quoted(language)}; allowed {allowed}). Correct it.")
     if not LEAST_DPI <= dpi <= MOST_DPI:
         raise ReportError(f"dpi: not a valid resolution (found {dpi}; allowed {LEAST_DPI} to {MOST_DPI}). Correct it.")
     names = figure_names(only)
     runs = [each if isinstance(each, Run) else Run(Path(each), skip_damaged=True) for each in (run, *others)]
-    return write_pages(runs, None if output is None else Path(output), names, brief, dpi).files[0][1]
+    return write_pages(runs, None if output is None else Path(output), names, brief, dpi, language=language).files[0][1]

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 from conftest import MakeRun
-
 from thawslide import Run
 from thawslide.report_page import make_report
 
@@ -43,6 +42,9 @@ PROBE = """
     await pause(500);
     return plot.querySelector(".hoverlayer").textContent;
   };
+  for (const part of document.querySelectorAll("details")) part.open = true;
+  await pause(500);
+  found.widths = [...document.querySelectorAll(".js-plotly-plot")].map((plot) => plot._fullLayout.width);
   const last = () => get("view").data.at(-1);
   ACTIONS
   found.resources = performance.getEntriesByType("resource").map((entry) => entry.name.slice(0, 60));
@@ -68,6 +70,7 @@ def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
     assert recorded, outcome.stderr[-2000:]
     found: dict[str, Any] = json.loads(html.unescape(recorded[1]))
     assert found["errors"] == []
+    assert found["widths"] and min(found["widths"]) > 1000, "plots of a part that opens have the width of the page"
     assert all(name.startswith(("data:", "blob:")) for name in found["resources"]), "the page loads nothing"
     return found
 

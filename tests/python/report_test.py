@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Fails, MakeRun, history_columns, page_of, write_facts, write_history
-
 from thawslide import Run
 from thawslide.balance import balances
 from thawslide.command_line import main
@@ -17,6 +16,7 @@ from thawslide.report_page import make_report
 from thawslide.time_reference import time_note
 
 IN_SECTION = ["motion", "velocity", "plastic_strain", "temperature", "pore_pressure", "force", "band", "energy"]
+OF_DIAGNOSIS = ["temperature", "pore_pressure", "band", "energy"]
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -95,7 +95,17 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
 
     page = report.page.read_text(encoding="utf-8")
     assert "<h1>Block on a slope &amp; &lt;more&gt;</h1>" in page
-    assert re.findall(r'src="([^"]+)"', page) == [file_data(report.figures[name]) for name in IN_SECTION]
+    extent, *shown = re.findall(r'src="([^"]+)"', page)
+    of_results, of_diagnosis = (
+        [name for name in IN_SECTION if (name in OF_DIAGNOSIS) == is_diagnosis] for is_diagnosis in (False, True)
+    )
+    assert extent.startswith("data:image/png;base64,")
+    assert shown == [file_data(report.figures[name]) for name in (*of_results, *of_diagnosis)]
+    places = [page.index(f'<details id="{name}" class="part">') for name in ("numbers", "diagnosis")]
+    assert places == sorted(places)
+    assert [page.index(f'<h2 id="{name}">') > places[1] for name in IN_SECTION] == [
+        name in OF_DIAGNOSIS for name in IN_SECTION
+    ]
     assert '<th scope="row">Peak mean velocity</th><td>12 m/s</td><td>at 5 s</td>' in page
     assert '<th scope="row">particle steps per second</th><td>3,100,000</td>' in page
     assert '<th scope="row">momentum to grid</th><td>1.25</td>' in page

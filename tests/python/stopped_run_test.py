@@ -113,7 +113,7 @@ def test_page_has_warnings_and_the_command_to_resume(map_run: Path) -> None:
     write_facts(map_run, status="running")
     page = page_of(map_run)
     assert "This run terminated unexpectedly: its status in run.json is running, but no process holds run.lock." in page
-    assert f"To continue from its last checkpoint: `thawslide resume {map_run}`." in page
+    assert f"To continue from its last checkpoint: `thawslide resume {map_run.name}`." in page
     parts = [{"warnings": []}, {}, {"warnings": ["history.csv lacks 2 of the 16 rows"]}, {"warnings": 3}, 4]
     write_facts(map_run, parts=parts)
     assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page_of(map_run)

@@ -99,7 +99,10 @@ def test_a_forecast_is_weighted_throughout_and_continues(
     page = (output / "sweep.html").read_text()
     assert "<h2>Prior check</h2>" in page and "All results are weighted" in page and "Not available" not in page
     summary = (output / "summary.html").read_text()
-    assert "The release has 1.08 million m³. Of 12 simulations with different parameters, this is number" in summary
+    assert "1.08 million m³ of rock and ice are released" in summary
+    assert "Of 12 simulations with different parameters, this is number" in summary
+    assert "Summary of a forecast of 12 simulations" in summary and "This is one scenario" not in summary
+    assert summary.count('src="data:image/png') == 3 and "Fraction of the simulations that reach each place." in summary
     assert (output / "summary.pdf").is_file()
 
     SweepFolder(output).record_file(3).unlink()

@@ -31,6 +31,7 @@ TEMPERATURE = Painting("temperature", "temperature", "°C", "plasma")
 THICKNESS = Painting("thickness", "thickness", "m", "YlOrRd")
 PORE_PRESSURE = Painting("pore_pressure", "pore pressure", "Pa", "viridis")
 
+PROBABILITY_LIMITS = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)  # of the classes of a probability
 BOILING = 100.0  # °C: beyond it a linear scale would only resolve the hottest particles
 THIN = "#6BAED6"  # of thicknesses below the scale
 _THIN_FRACTION = 0.02  # of the maximum: smaller thicknesses have that colour

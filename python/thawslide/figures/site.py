@@ -21,7 +21,7 @@ from thawslide.figures.map_panel import (
     outline,
 )
 from thawslide.figures.style import BLACK, BLUE, PURPLE
-from thawslide.maps import Grid, Map, Maps
+from thawslide.maps import Box, Grid, Map, Maps
 from thawslide.run_folder import Numbers, Run
 
 RELEASE, PATH = BLACK, BLUE
@@ -33,6 +33,7 @@ class Site:
 
     run: Run
     maps: Maps
+    also: tuple[Box, ...] = ()  # boxes in the scene in addition to those of the run
 
     @cached_property
     def scene(self) -> Scene:
@@ -41,7 +42,7 @@ class Site:
             covered_box(self.maps["max_thickness"], self.threshold),
             covered_box(self.maps["release"]) if "release" in self.maps else None,
         ]
-        boxes = [box for box in about if box is not None]
+        boxes = [*(box for box in about if box is not None), *self.also]
         terrain = self.maps["terrain"]
         return make_scene(terrain, box_about(boxes) if boxes else terrain.grid.box)
 
@@ -151,9 +152,9 @@ class Site:
         return handles
 
 
-def make_site(run: Run) -> Site:
-    """Return the site of a run; NotInRunError for a run that has no maps."""
-    site = Site(run, run.maps)
+def make_site(run: Run, also: tuple[Box, ...] = ()) -> Site:
+    """Return the site of a run, whose scene includes the boxes `also`; NotInRunError for a run that has no maps."""
+    site = Site(run, run.maps, also)
     for name in ("terrain", "max_thickness"):
         if name not in site.maps:
             raise NotInRunError(f"{site.maps.folder / name}.tif: no such map. Repeat the run.")

@@ -19,7 +19,7 @@ from thawslide.errors import ReportError, nearest, quoted
 from thawslide.forecasts.output import prior_lines, write_prior
 from thawslide.forecasts.prior import check_prior, release_volume
 from thawslide.maps import on_map
-from thawslide.number_text import number_text, volume_text
+from thawslide.messages import LANGUAGES, Messages
 from thawslide.pages.events import KINDS, published_events
 from thawslide.pages.summary import make_summary
 from thawslide.run_folder import Run
@@ -30,6 +30,7 @@ from thawslide.sweeps.command import report_members, whole_number
 from thawslide.sweeps.design import Design
 from thawslide.sweeps.design_file import read_sweep_file
 from thawslide.sweeps.folder import DONE, FAILED, PLAN, PRIOR, PRIOR_FILE, SweepFolder
+from thawslide.sweeps.outcome import MAPS
 from thawslide.sweeps.page import weights_of
 
 SWEEP_FILE = "sweep.toml"
@@ -92,7 +93,7 @@ def _forecast(given: argparse.Namespace) -> int:
     else:
         _check_prior(design, options, given, is_weighted)
     folder, table = run_sweep(design, options)
-    _summarize(folder, table, say)
+    _summarize(folder, table, given.language, say)
     return report_members(table, "thawslide forecast")
 
 
@@ -126,28 +127,26 @@ def _check_prior(design: Design, options: Options, given: argparse.Namespace, is
         print_line(line)
 
 
-def _summarize(folder: SweepFolder, table: pd.DataFrame, say: Callable[[str], None]) -> None:
-    """Write the summary of the member with the median travel distance."""
+def _summarize(folder: SweepFolder, table: pd.DataFrame, language: str, say: Callable[[str], None]) -> None:
+    """Write the summary of the member with the median travel distance, with the probability map."""
     done = table[table["status"] == DONE]
     lengths = done["travel_distance_m"].to_numpy(dtype=float) if "travel_distance_m" in done else np.zeros(0)
     if not np.isfinite(lengths).any():
         say("note: no summary: no member has a travel distance")
         return
     weights = weights_of(done)
-    by = "" if weights is None else ", weighted by published events"
-    low, median, high = quantiles(lengths, np.ones(len(done)) if weights is None else weights)
-    member = done.iloc[int(np.flatnonzero(lengths == median)[0])]
-    number = int(member["member"])
+    (median,) = quantiles(lengths, np.ones(len(done)) if weights is None else weights, (0.5,))
+    number = int(done["member"].iloc[int(np.flatnonzero(lengths == median)[0])])
     run = Run(folder.run_folder(number), skip_damaged=True)
     if not on_map(run):
         say("note: no summary: only cases on a DEM have one")
         return
-    context = (
-        f"The release has {volume_text(member['release_volume_m3'])}. Of {len(done)} simulations with different "
-        f"parameters, this is number {number}, with the median travel distance{by}. 5 % travel less than "
-        f"{number_text(low)} m, and 5 % more than {number_text(high)} m."
-    )
-    for path in make_summary(run, folder.path, context=context):
+    context = Messages(language)("forecast", count=len(done), number=number)
+    reached = folder.path / MAPS / "reached.tif"
+    probability = reached if reached.is_file() else None
+    for path in make_summary(
+        run, folder.path, language=language, context=context, members=len(done), probability=probability
+    ):
         say(f"summary: {path}")
 
 
@@ -167,6 +166,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--event", metavar="NAME", default="", help="published event to leave out, because it is the one to forecast")
     add("--output", metavar="DIR", type=Path, help="folder of the forecast (default: runs/NAME-forecast)")
     add("--workers", type=whole_number, default=0, help="processes (default: one per core, as many as fit into memory)")
+    add("--language", choices=LANGUAGES, default=LANGUAGES[0], help="of the summary (default: en)")
     add("--quiet", action="store_true", help="print the prior check, errors and the last line only")
     return parser
 

@@ -1,11 +1,14 @@
-"""Tables of run.json: inputs with their SHA-256, and all other facts."""
+"""Tables of a run: inputs with their SHA-256, keys of the case, program, machine and effort."""
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from thawslide.number_text import integer_text
 from thawslide.pages.markup import details, table
+from thawslide.run_folder import Run
+from thawslide.text_files import MEGABYTE, read_text
 
 
 def inputs_of(facts: dict[str, Any]) -> str:
@@ -27,28 +30,43 @@ def _bytes_text(value: Any) -> str:
     return f"{value:,} bytes" if isinstance(value, int) else "not known"
 
 
+def settings_of(run: Run) -> str:
+    """Return a table of the keys that the case specifies, "" without any; defaults are marked in the resolved case."""
+    rows, section = [], ""
+    for line in read_text(run.folder / "case.toml", MEGABYTE).splitlines():
+        if heading := re.fullmatch(r"\[+([^\[\]]+)\]+", line.strip()):
+            section = heading[1]
+        elif entry := re.fullmatch(r"([\w-]+) = (.*?)(?:  # ([^\"]*))?", line):
+            key, value, remark = entry.groups()
+            if "not given" not in (remark or ""):
+                rows.append((f"{section}.{key}", _without_folders(value), remark or ""))
+    return table(rows, "facts", ("key", "value", "unit")) if rows else ""
+
+
+def _without_folders(value: str) -> str:
+    """Return a value of a case file, an absolute path without its folders."""
+    return re.sub(r'"/[^"]*/', '"', value)
+
+
 def facts_of(facts: dict[str, Any]) -> list[str]:
-    """Return run.json as a table of its single values and one collapsed table for each value with parts."""
+    """Return program, machine and effort of a run as a table, and a collapsed table of the time of each stage."""
     if not facts:
         return ["<p>No run.json: the run was interrupted before it was written.</p>"]
-    single = [(_words(key), _value(value)) for key, value in facts.items() if not _has_parts(value)]
-    parts = [table(single, "facts")]
-    for key, value in facts.items():
-        if isinstance(value, dict) and value:
-            rows: Any = [(_words(name), _value(part)) for name, part in value.items()]
-        elif _has_parts(value):
-            rows = [(number, _value(part)) for number, part in enumerate(value, 1)]
-        else:
-            continue
-        parts.append(details(_words(key), table(rows, "facts")))
+    rows = [(words, _value(facts[key])) for key, words in _FACTS.items() if facts.get(key) not in (None, "")]
+    parts = [table(rows, "facts")]
+    stages = facts.get("seconds_per_stage")
+    if isinstance(stages, dict) and stages:
+        rows = [(_words(name), _value(value)) for name, value in stages.items()]
+        parts.append(details("Seconds per stage", table(rows, "facts")))
     return parts
 
 
-def _has_parts(value: Any) -> bool:
-    """Return whether a value has a separate table: a non-empty object, or a list of objects or long texts."""
-    if isinstance(value, dict):
-        return bool(value)
-    return isinstance(value, list) and any(isinstance(part, dict) or len(str(part)) > 40 for part in value)
+_FACTS = {
+    "version": "Thawslide", "commit": "commit", "started": "started", "status": "status", "device": "device",
+    "processor": "processor", "threads": "threads", "wall_s": "wall-clock time (s)", "steps": "time steps",
+    "particles": "particles at the end", "particle_steps_per_second": "particle steps per second",
+    "crs": "reference system", "at_rest": "at rest at the end",
+}  # fmt: skip
 
 
 def _words(key: str) -> str:
@@ -56,14 +74,8 @@ def _words(key: str) -> str:
 
 
 def _value(value: Any) -> str:
-    if isinstance(value, bool) or value is None:
-        return {True: "yes", False: "no", None: "none"}[value]
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float):
         return integer_text(value)
-    if isinstance(value, int):
-        return f"{value:,}"
-    if isinstance(value, dict):
-        return ", ".join(f"{_words(key)}: {_value(part)}" for key, part in value.items()) or "none"
-    if isinstance(value, list):
-        return ", ".join(_value(part) for part in value) or "none"
-    return str(value) or "none"
+    return f"{value:,}" if isinstance(value, int) else str(value)

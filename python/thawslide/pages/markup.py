@@ -23,10 +23,11 @@ _SELF_CONTAINED = (
 )
 
 
-def page_frame(title: str, body: str, is_self_contained: bool = False) -> str:
+def page_frame(title: str, body: str, is_self_contained: bool = False, language: str = "en") -> str:
     """Return a whole HTML page in the style of all reports; title and body are HTML already."""
-    before, between, within, after = re.split("TITLE|POLICY|BODY", _FRAME)  # one step: a title can contain "BODY"
-    return f"{before}{title}{between}{_SELF_CONTAINED if is_self_contained else ''}{within}{body}{after}"
+    start, before, between, within, after = re.split("LANGUAGE|TITLE|POLICY|BODY", _FRAME)  # not in title or body
+    policy = _SELF_CONTAINED if is_self_contained else ""
+    return f"{start}{language}{before}{title}{between}{policy}{within}{body}{after}"
 
 
 def table(rows: Iterable[Sequence[object]], style: str, head: Sequence[str] = ()) -> str:
@@ -40,9 +41,16 @@ def table(rows: Iterable[Sequence[object]], style: str, head: Sequence[str] = ()
     return f'<table class="{style}">\n' + "\n".join(lines) + "\n</table>"
 
 
-def details(heading: str, inside: str) -> str:
-    """Return a part of the page that opens on a click; `inside` is HTML."""
-    return f"<details><summary>{html.escape(heading)}</summary>\n{inside}\n</details>"
+def details(heading: str, inside: str, name: str = "") -> str:
+    """Return a part of the page that opens on a click; `inside` is HTML. With a name it is a main part of the page."""
+    of_page = f' id="{name}" class="part"' if name else ""
+    return f"<details{of_page}><summary>{html.escape(heading)}</summary>\n{inside}\n</details>"
+
+
+def items(sentences: Iterable[str]) -> str:
+    """Return sentences as a list."""
+    lines = "\n".join(f"<li>{html.escape(sentence)}</li>" for sentence in sentences)
+    return f"<ul>\n{lines}\n</ul>"
 
 
 def figure_part(heading: str, data: str, caption: str, is_video: bool = False) -> str:
@@ -79,31 +87,52 @@ def json_part(name: str, value: Any) -> str:
 
 
 _FRAME = """<!doctype html>
-<html lang="en">
+<html lang="LANGUAGE">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>TITLE</title>
 POLICY
 <style>
-body { font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #1f2328; background: #fff;
-  max-width: 1080px; margin: 2.5rem auto; padding: 0 1.25rem; }
-h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; }
-h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid #d8dee4; }
-.where, .times, figcaption, td:last-child:not(:nth-child(2)) { color: #59636e; }
+@media screen { :root { color-scheme: light dark; } }
+:root { --text: #1f2328; --back: #fff; --quiet: #59636e; --line: #d8dee4; --note: #fff6e0; --link: #0a5fb4;
+  --value: #0072b2; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --text: #e6e9ec; --back: #15191e; --quiet: #a9b2bb; --line: #3a424b; --note: #3a2f12; --link: #7cbcff;
+    --value: #74bdf0; }
+  img, video, #view, #events { background: #fff; border-radius: 4px; }
+}
+body { font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: var(--text); background: var(--back);
+  max-width: 1080px; margin: 2rem auto; padding: 0 1.25rem; }
+h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; overflow-wrap: anywhere; }
+h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid var(--line); }
+.where, .times, figcaption, td:last-child:not(:nth-child(2)) { color: var(--quiet); }
 .where { margin: .3rem 0 0; }
 nav { margin: .8rem 0; font-size: .9rem; }
-a { color: #0a5fb4; text-decoration: none; }
+a { color: var(--link); text-decoration: none; }
 a:hover { text-decoration: underline; }
-.note { background: #fff6e0; border-left: 4px solid #e69f00; padding: .6rem .9rem; margin: 1rem 0; }
+.note { background: var(--note); border-left: 4px solid #e69f00; padding: .6rem .9rem; margin: 1rem 0;
+  overflow-wrap: anywhere; }
 table { border-collapse: collapse; font-size: .93rem; }
-th, td { text-align: left; padding: .32rem 1.4rem .32rem 0; border-bottom: 1px solid #eaeef2; vertical-align: top; }
+th, td { text-align: left; padding: .32rem 1.4rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { font-weight: 500; }
 .facts td { overflow-wrap: anywhere; }
 .runs td { color: inherit !important; font-variant-numeric: tabular-nums; }
 .numbers td:nth-child(2) { font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
 details { margin: .8rem 0; }
-summary { cursor: pointer; color: #0a5fb4; margin-bottom: .4rem; }
+summary { cursor: pointer; color: var(--link); margin-bottom: .4rem; }
+.part { border-top: 1px solid var(--line); margin: 1rem 0 0; padding-top: .6rem; }
+.part > summary { font-size: 1.2rem; font-weight: 600; }
+.results { display: grid; grid-template-columns: 11fr 9fr; gap: 0 2rem; }
+.results h2 { font-size: 1rem; margin: .8rem 0 .3rem; }
+.results p, .results ul { margin: .3rem 0; font-size: .88rem; line-height: 1.4; }
+.results ul { padding-left: 1.1rem; }
+.plain { margin: 0; }
+.plain div { border-bottom: 1px solid var(--line); padding: .2rem 0; }
+.plain dt { float: right; color: var(--quiet); font-size: .88rem; }
+.plain .value { font-size: 1.2rem; font-weight: 600; color: var(--value); font-variant-numeric: tabular-nums; }
+.plain dd { margin: 0; font-size: .84rem; color: var(--quiet); }
+.plain .range { color: var(--text); }
 figure { margin: 0; }
 img, video { max-width: 100%; height: auto; display: block; }
 figcaption { font-size: .88rem; margin-top: .3rem; }
@@ -111,7 +140,18 @@ figcaption { font-size: .88rem; margin-top: .3rem; }
 .controls input[type=range] { flex: 1 1 14rem; }
 .controls output { min-width: 7rem; font-variant-numeric: tabular-nums; }
 .controls button, .controls select { font: inherit; padding: .15rem .6rem; }
-@media print { nav, .controls { display: none; } figure { break-inside: avoid; } }
+@media screen and (max-width: 700px) {
+  body { margin: 1rem auto; }
+  .results { grid-template-columns: minmax(0, 1fr); }
+  table { display: block; overflow-x: auto; }
+  .numbers td:nth-child(2) { white-space: normal; }
+}
+@page { margin: 12mm; }
+@media print {
+  nav, .controls, .part:not([open]) { display: none; }
+  body { margin: 0; font-size: 12px; }
+  figure { break-inside: avoid; }
+}
 </style>
 </head>
 <body>

@@ -1,8 +1,9 @@
-"""Two-page summary of a 3D run for non-experts, as HTML and as PDF."""
+"""Two-page summary of a run for non-experts, as HTML and as PDF."""
 
 from __future__ import annotations
 
 import html
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,60 +13,101 @@ from matplotlib.figure import Figure
 
 from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError
-from thawslide.figures.class_maps import Classes, arrival_classes, class_map, draw_classes, thickness_classes
+from thawslide.figures.area import Area, whole_figure
+from thawslide.figures.class_maps import (
+    Classes,
+    arrival_classes,
+    class_map_height,
+    draw_class_map,
+    probability_classes,
+    thickness_classes,
+)
+from thawslide.figures.map_panel import covered_box
+from thawslide.figures.section_results import draw_section_arrival, draw_section_extent
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.style import BLUE, NOTE, common_style, disable_formulas, wrapped
-from thawslide.maps import on_map
-from thawslide.pages.markup import drawn_data, figure_part, page_frame, table
-from thawslide.pages.summary_text import PlainNumber, arrival_rows, limits, origin, plain_numbers, scenario
+from thawslide.figures.style import BLUE, NOTE, RED, common_style, disable_formulas, styled, wrapped
+from thawslide.maps import on_map, read_map
+from thawslide.messages import LANGUAGES, Messages
+from thawslide.pages.client_text import ClientText, client_text
+from thawslide.pages.markup import drawn_data, figure_part, items, page_frame, table
+from thawslide.pages.results import map_note
 from thawslide.run_folder import Run
 
 NAMES = ("summary.html", "summary.pdf")
 _WIDTH, _HEIGHT, _MARGIN = 8.27, 11.69, 0.75  # inches: A4
 _INSIDE = _WIDTH - 2 * _MARGIN
 _CHARACTERS = 14.5  # of a text of 9.5 points in one inch
-_LEGEND = 0.85  # inches below a map
-_MAP_HEADING, _ARRIVAL_HEADING = "Maximum flow thickness", "Time of arrival after the start"
+_HIGHEST, _BETWEEN = 3.9, 0.3  # inches, of the maps of the second page, and between them
 _MOST_ROWS = 12  # of arrivals on paper, to leave space for the map
-_TABLE_HEAD = ("place", "arrival after the start", "maximum thickness")
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A map or section: heading, caption, its height in a width and a maximum height [inches], and the drawing."""
+
+    heading: str
+    caption: str
+    height: Callable[[float, float], float]
+    draw: Callable[[Area], None]
+
+    @styled
+    def figure(self) -> Figure:
+        """Return the panel as a figure for the page in HTML."""
+        area = whole_figure(_INSIDE, self.height(_INSIDE, _INSIDE))
+        self.draw(area)
+        return area.figure
 
 
 @dataclass(frozen=True)
 class Summary:
-    """Texts and maps of a summary."""
+    """Texts, and the panels of the first and of the second page."""
 
     title: str
-    scenario: list[str]
-    numbers: list[PlainNumber]
-    arrivals: list[tuple[str, str, str]]
-    limits: list[str]
-    origin: list[str]
-    site: Site
-    thickness: Classes
-    arrival: Classes
+    say: Messages
+    context: str
+    members: int  # of a forecast; 0: a single run
+    text: ClientText
+    first: Panel
+    second: list[Panel]
+
+    @property
+    def limits(self) -> list[str]:
+        """The limits, those of probabilities first."""
+        if not self.members:
+            return self.text.limits
+        of_runs = [sentence for sentence in self.text.limits if sentence != self.say("limit_scenario")]
+        return [self.say("limit_probability"), *of_runs]
+
+    @property
+    def subtitle(self) -> str:
+        """The kind of the summary, its date and the program."""
+        kind = self.say("summary_forecast", count=self.members) if self.members else self.say("summary")
+        return f"{kind}, {self.text.computed}"
+
+    @property
+    def head(self) -> tuple[str, ...]:
+        """The heading of the table of arrivals."""
+        return tuple(self.say(name) for name in ("place", "place_arrival", "place_thickness"))
 
 
-def make_summary(run: Run, output: Path | None = None, dpi: int = 150, context: str = "") -> tuple[Path, Path]:
+def make_summary(
+    run: Run,
+    output: Path | None = None,
+    dpi: int = 150,
+    language: str = LANGUAGES[0],
+    context: str = "",
+    members: int = 0,
+    probability: Path | None = None,
+) -> tuple[Path, Path]:
     """Write summary.html and summary.pdf into `output` (default: the run folder); return their paths.
 
-    `context`: a sentence on the other runs of a forecast.
+    `context`: a sentence on the run in a forecast of so many `members`. `probability`: its map of being reached.
     """
-    if not on_map(run):
-        raise ReportError("--brief: only for 3D runs on a DEM, which have maps. Use the report of this run.")
-    site = make_site(run)
-    summary = Summary(
-        run.title,
-        [*scenario(run), context] if context else scenario(run),
-        plain_numbers(run),
-        arrival_rows(run),
-        limits(run),
-        origin(run),
-        site,
-        thickness_classes(site),
-        arrival_classes(site),
-    )
+    say = Messages(language)
     page, document = ((output or run.folder) / name for name in NAMES)
     try:
+        first, *second = _map_panels(run, say, probability) if on_map(run) else _section_panels(run, say)
+        summary = Summary(run.title, say, context, members, client_text(run, say), first, second)
         page.parent.mkdir(parents=True, exist_ok=True)
         with atomic_file(page) as temporary:
             temporary.write_text(_page(summary, dpi), encoding="utf-8")
@@ -80,30 +122,76 @@ def make_summary(run: Run, output: Path | None = None, dpi: int = 150, context: 
     return page, document
 
 
+def _map_panels(run: Run, say: Messages, probability: Path | None) -> list[Panel]:
+    """Return the maps of a run, that of the probability first."""
+    reached = covered_box(read_map(probability)) if probability else None
+    site = make_site(run, () if reached is None else (reached,))
+    note = map_note(site, say)
+    found = []
+    if probability:
+        words = f"{say('probability_caption')} {note}"
+        found.append(_map_panel(site, probability_classes(site, probability, say), "head_probability", words, say))
+    found.append(_map_panel(site, thickness_classes(site, say), "head_area", note, say))
+    found.append(_map_panel(site, arrival_classes(site, say), "head_arrival", say("arrival_caption"), say))
+    return found
+
+
+def _map_panel(site: Site, classes: Classes, heading: str, caption: str, say: Messages) -> Panel:
+    return Panel(
+        say(heading),
+        caption,
+        lambda width, highest: class_map_height(site, classes, width, highest),
+        lambda area: draw_class_map(area, site, classes, say),
+    )
+
+
+def _section_panels(run: Run, say: Messages) -> list[Panel]:
+    """Return the extent of a section, and the arrival of its front."""
+    return [
+        Panel(
+            say("head_section"), say("section_caption"), lambda width, highest: min(0.75 * width, highest),
+            lambda area: draw_section_extent(area, run, say),
+        ),
+        Panel(
+            say("head_arrival"), say("front_caption"), lambda width, highest: min(0.45 * width, highest),
+            lambda area: draw_section_arrival(area, run, say),
+        ),
+    ]  # fmt: skip
+
+
 def _page(summary: Summary, dpi: int) -> str:
+    say, text = summary.say, summary.text
     title = html.escape(summary.title)
-    thickness = drawn_data(class_map(summary.site, summary.thickness, _MAP_HEADING), dpi)
-    arrival = drawn_data(class_map(summary.site, summary.arrival, _ARRIVAL_HEADING), dpi)
-    numbers = ((each.name, each.value, each.meaning) for each in summary.numbers)
+    numbers = ((each.name, each.value, each.spread, each.meaning) for each in text.numbers)
     parts = [
         f"<h1>{title}</h1>",
-        '<p class="where">Summary of one simulated scenario</p>',
-        "<h2>Scenario</h2>",
-        f"<p>{html.escape(' '.join(summary.scenario))}</p>",
-        "<h2>Key numbers</h2>",
+        f'<p class="where">{html.escape(summary.subtitle)}</p>',
+        *(f'<p class="note">{html.escape(alert)}</p>' for alert in text.alerts),
+        f"<h2>{html.escape(say('head_scenario'))}</h2>",
+        f"<p>{html.escape(_scenario(summary))}</p>",
+        f"<h2>{html.escape(say('head_numbers'))}</h2>",
         table(numbers, "numbers"),
-        "<h2>Affected area and thickness</h2>",
-        figure_part(_MAP_HEADING, thickness, summary.site.scene.note()),
-        '<h2 style="break-before: page">Arrival</h2>',
-        figure_part(_ARRIVAL_HEADING, arrival, "Time of first arrival, counted from the start of the movement."),
+        f"<p><small>{html.escape(text.ranges)}</small></p>",
+        *_shown(summary.first, dpi, ""),
+        *_shown(summary.second[0], dpi, ' style="break-before: page"'),
+        *(part for panel in summary.second[1:] for part in _shown(panel, dpi, "")),
     ]
-    if summary.arrivals:
-        parts.append(table(summary.arrivals, "runs", _TABLE_HEAD))
-    items = "\n".join(f"<li>{html.escape(sentence)}</li>" for sentence in summary.limits)
-    parts += ["<h2>Limits of the numbers</h2>", f"<ul>\n{items}\n</ul>"]
-    origins = "<br>".join(html.escape(line) for line in summary.origin)
+    if text.arrivals:
+        parts.append(table(text.arrivals, "runs", summary.head))
+    parts += [f"<h2>{html.escape(say('head_assumptions'))}</h2>", items(text.assumptions)]
+    parts += [f"<h2>{html.escape(say('head_limits'))}</h2>", items(summary.limits)]
+    origins = "<br>".join(html.escape(line) for line in text.origin)
     parts.append(f'<p class="where" style="overflow-wrap: anywhere"><small>{origins}</small></p>')
-    return page_frame(title, "\n".join(parts), is_self_contained=True)
+    return page_frame(title, "\n".join(parts), is_self_contained=True, language=say.language)
+
+
+def _shown(panel: Panel, dpi: int, style: str) -> list[str]:
+    heading = html.escape(panel.heading)
+    return [f"<h2{style}>{heading}</h2>", figure_part(panel.heading, drawn_data(panel.figure(), dpi), panel.caption)]
+
+
+def _scenario(summary: Summary) -> str:
+    return " ".join([*summary.text.scenario, summary.context]).rstrip()
 
 
 def _write_pdf(summary: Summary, path: Path, dpi: int) -> None:
@@ -124,9 +212,18 @@ class _Sheet:
         self.figure = Figure(figsize=(_WIDTH, _HEIGHT))
         self.top = _MARGIN
 
-    def text(self, words: str, size: float = 9.5, *, after: float = 0.1, indent: float = 0.0, **style: Any) -> None:
-        """Write a paragraph, wrapped to the width of the page."""
-        lines = wrapped(words, _CHARACTERS * 9.5 / size * (_INSIDE - indent))
+    def text(
+        self,
+        words: str,
+        size: float = 9.5,
+        *,
+        after: float = 0.1,
+        indent: float = 0.0,
+        width: float = _INSIDE,
+        **style: Any,
+    ) -> None:
+        """Write a paragraph, wrapped to a width and to that of the page."""
+        lines = wrapped(words, _CHARACTERS * 9.5 / size * min(width, _INSIDE - indent))
         self.figure.text(
             (_MARGIN + indent) / _WIDTH, 1 - self.top / _HEIGHT, "\n".join(lines), size=size, va="top",
             linespacing=1.35, **style,
@@ -138,67 +235,78 @@ class _Sheet:
         self.top += 0.12
         self.text(words, 12, after=0.08, weight="bold")
 
-    def map(self, site: Site, classes: Classes, heading: str, highest: float) -> None:
-        """Draw a map with its legend below, which together have at most a height."""
-        width = min(_INSIDE, (highest - _LEGEND) * site.scene.aspect)
-        height = width / site.scene.aspect
-        axes = self.figure.add_axes(
-            (_MARGIN / _WIDTH, 1 - (self.top + height) / _HEIGHT, width / _WIDTH, height / _HEIGHT)
-        )
-        handles = draw_classes(axes, site, classes)
-        self.top += height
-        self.figure.legend(
-            handles=handles, title=heading, loc="upper left", fontsize=9, title_fontsize=9, alignment="left", ncols=4,
-            bbox_to_anchor=((_MARGIN - 0.05) / _WIDTH, 1 - (self.top + 0.02) / _HEIGHT),
-        )  # fmt: skip
-        self.top += _LEGEND
+    def panels(self, panels: list[Panel], highest: float) -> None:
+        """Draw panels next to each other with their captions, at most so high."""
+        width = (_INSIDE - (len(panels) - 1) * _BETWEEN) / len(panels)
+        tallest = max(panel.height(width, highest) for panel in panels)
+        start = self.top
+        ends = []
+        for number, panel in enumerate(panels):
+            left = number * (width + _BETWEEN)
+            self.top = start
+            if number or len(panels) > 1:
+                self.text(panel.heading, 10, after=0.04, indent=left, width=width, weight="bold")
+            panel.draw(Area(self.figure, _MARGIN + left, self.top, width, panel.height(width, highest)))
+            self.top += tallest + 0.05
+            self.text(panel.caption, 7.5, after=0.05, indent=left, width=width, color=NOTE)
+            ends.append(self.top)
+        self.top = max(ends)
+
+    def list(self, sentences: Sequence[str]) -> None:
+        """Write sentences as a list."""
+        for sentence in sentences:
+            top = self.top
+            self.text("•", 9, after=0.0)
+            self.top = top
+            self.text(sentence, 9, after=0.03, indent=0.15)
 
 
 def _first_sheet(summary: Summary) -> _Sheet:
-    sheet = _Sheet()
+    sheet, say, text = _Sheet(), summary.say, summary.text
     sheet.text(summary.title, 16, after=0.02, weight="bold")
-    sheet.text("Summary of one simulated scenario", 10, color=NOTE)
-    sheet.heading("Scenario")
-    sheet.text(" ".join(summary.scenario))
-    sheet.heading("Key numbers")
-    for number in summary.numbers:
+    sheet.text(summary.subtitle, 10, color=NOTE)
+    for alert in text.alerts:
+        sheet.text(alert, color=RED, weight="bold")
+    sheet.heading(say("head_scenario"))
+    sheet.text(_scenario(summary))
+    sheet.heading(say("head_numbers"))
+    for number in text.numbers:
         top = sheet.top
         sheet.text(number.value, 12, after=0.0, weight="bold", color=BLUE)
         sheet.top = top + 0.02
-        sheet.text(f"{number.name}. {number.meaning}", after=0.07, indent=1.75)
-    sheet.heading("Affected area and thickness")
-    sheet.map(summary.site, summary.thickness, _MAP_HEADING, _HEIGHT - _MARGIN - 0.5 - sheet.top)
-    sheet.text(summary.site.scene.note(), 7.5, color=NOTE)
+        spread = f" ({number.spread})" if number.spread else ""
+        sheet.text(f"{number.name}{spread}. {number.meaning}", after=0.07, indent=2.0)
+    sheet.text(text.ranges, 8, color=NOTE)
+    sheet.heading(summary.first.heading)
+    sheet.panels([summary.first], _HEIGHT - _MARGIN - 0.4 - sheet.top)
     return sheet
 
 
 def _second_sheet(summary: Summary) -> _Sheet:
-    sheet = _Sheet()
-    sheet.text("Arrival", 12, after=0.08, weight="bold")
-    rows = _rows_on_paper(summary.arrivals)
-    reserved = 3.5 + 0.22 * len(rows)  # for the texts below the map
-    sheet.map(summary.site, summary.arrival, _ARRIVAL_HEADING, _HEIGHT - _MARGIN - reserved - sheet.top)
-    for row in [_TABLE_HEAD, *rows] if rows else []:
+    sheet, say, text = _Sheet(), summary.say, summary.text
+    if len(summary.second) == 1:
+        sheet.text(summary.second[0].heading, 12, after=0.08, weight="bold")
+    rows = _rows_on_paper(text.arrivals, say)
+    sheet.panels(summary.second, _HIGHEST if len(rows) < _MOST_ROWS // 2 else _HIGHEST - 1.0)
+    for number, row in enumerate([summary.head, *rows] if rows else []):
         top = sheet.top
         for column, cell in enumerate(row):
             sheet.top = top
-            weight = "bold" if row is _TABLE_HEAD else "normal"
+            weight = "bold" if number == 0 else "normal"
             sheet.text(cell, 9, after=0.03, indent=2.2 * column, weight=weight)
-    sheet.heading("Limits of the numbers")
-    for sentence in summary.limits:
-        top = sheet.top
-        sheet.text("•", after=0.0)
-        sheet.top = top
-        sheet.text(sentence, after=0.04, indent=0.15)
+    sheet.heading(say("head_assumptions"))
+    sheet.list(text.assumptions)
+    sheet.heading(say("head_limits"))
+    sheet.list(summary.limits)
     sheet.top += 0.1
-    for line in summary.origin:
+    for line in text.origin:
         sheet.text(line, 7, after=0.0, color=NOTE)
     return sheet
 
 
-def _rows_on_paper(rows: list[tuple[str, str, str]]) -> list[tuple[str, str, str]]:
+def _rows_on_paper(rows: list[tuple[str, str, str]], say: Messages) -> list[tuple[str, ...]]:
     """Return the rows of arrivals that fit on the page; the last one then counts the others."""
     if len(rows) <= _MOST_ROWS:
-        return rows
+        return [*rows]
     shown = rows[: _MOST_ROWS - 1]
-    return [*shown, (f"{len(rows) - len(shown)} others: {NAMES[0]}", "", "")]
+    return [*shown, (say("more_places", count=len(rows) - len(shown), file=NAMES[0]), "", "")]
