@@ -318,11 +318,20 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     np.testing.assert_allclose(line(mechanical, "kinetic")[1], 0.4 * t)
     np.testing.assert_allclose(line(thermal, "sensible heat")[1] * 1e12, 0.15e12 * t, atol=1.0)
     assert mechanical.get_ylabel() == "energy change (TJ)"
-    zero = "Zero throughout: viscous work, damping, impact on the terrain, work of frames, numerical energy"
-    assert figure.get_supxlabel().replace("\n", " ").startswith(zero)
+    omitted = "below 0.5 % of the largest of their budget: viscous work, damping, impact on the terrain, work of frames"
+    assert omitted in figure.get_supxlabel().replace("\n", " ")
     assert residual.get_yscale() == "log"
     np.testing.assert_allclose(line(residual, "mechanical")[1][1:], 1e3 * t[1:] / 1e13)
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
+
+
+def test_small_energy_terms_are_named_below_the_figure(make_run: MakeRun) -> None:
+    time = np.linspace(0.0, 10.0, 101)
+    for size, is_shown in ((0.0049, False), (0.0051, True)):  # of the potential energy
+        folder = make_run(name=f"run {is_shown}", history={"damping_J": size * 1e12 * time})
+        figure = FIGURES["energy"].plot(Run(folder))
+        assert ("damping" not in figure.get_supxlabel()) == is_shown
+        assert ("damping" in {found.get_label() for found in titled(figure, "(a)").lines}) == is_shown
 
 
 def test_one_row_is_a_marker_without_a_residual(make_run: MakeRun) -> None:

@@ -139,7 +139,7 @@ def test_assumptions_are_those_of_the_case(make_run: MakeRun) -> None:
 def test_settings_are_the_keys_that_the_case_gives(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "case.toml").write_text(
-        '[case]\ntitle = "x"\ngravity = 9.81  # m/s2, not given\n[terrain]\nfile = "/home/me/dem # 1.tif"\n'
+        '[case]\ntitle = "x"\ngravity = 9.81  # m/s2, not given\n[terrain]\nfile = "/srv/me/dem # 1.tif"\n'
         "[body.slide]\ntemperature = -5.0  # C\ntaper = 0.0  # not given\n"
     )
     rows = re.findall(r'<th scope="row">(.*?)</th><td>(.*?)</td><td>(.*?)</td>', settings_of(Run(folder)))
@@ -152,13 +152,13 @@ def test_settings_are_the_keys_that_the_case_gives(make_run: MakeRun) -> None:
 
 def test_page_has_no_absolute_path_and_no_dump_of_run_json(make_run: MakeRun) -> None:
     folder = make_run(snapshots=0)
-    inputs = [{"path": "/home/me/secret/case.toml", "sha256": "ab" * 32, "bytes": 12}]
+    inputs = [{"path": "/srv/me/secret/case.toml", "sha256": "ab" * 32, "bytes": 12}]
     update_facts(
-        folder, command="/opt/bin/thawslide run /home/me/secret", host="laptop", inputs=inputs,
-        warnings=["/home/me/secret/dem.tif: has no unit"], parts=[{"host": "laptop", "warnings": ["/home/me/x/y"]}],
+        folder, command="/opt/bin/thawslide run /srv/me/secret", host="laptop", inputs=inputs,
+        warnings=["/srv/me/secret/dem.tif: has no unit"], parts=[{"host": "laptop", "warnings": ["/srv/me/x/y"]}],
     )  # fmt: skip
     page = page_of(folder.resolve())
-    for text in ("/home/me", "/opt/bin", str(folder.parent), "laptop", "removed particles"):
+    for text in ("/srv/me", "/opt/bin", str(folder.parent), "laptop", "removed particles"):
         assert text not in page, text
     assert "dem.tif: has no unit" in page and '<th scope="row">case.toml</th>' in page
 

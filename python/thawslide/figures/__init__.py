@@ -162,9 +162,8 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "energy": FigureKind(
         "Energy budget",
-        "Change of each budget term since the start. Heat is zero for frozen material at 0 °C: band columns that gain "
-        "colder material gain negative heat. Relative residual: imbalance of a budget over the maximum change "
-        "of its terms.",
+        "Change of each budget term since the start. Warming and melting of columns: without the heat of material that "
+        "joins and leaves them. Relative residual: imbalance of a budget over the maximum change of its terms.",
         energy,
     ),
     "entrainment": FigureKind(

@@ -26,7 +26,7 @@ from thawslide.figures.style import (
     title_figure,
     title_panels,
 )
-from thawslide.number_text import prefixed
+from thawslide.number_text import number_text, prefixed
 from thawslide.run_folder import Numbers, Run
 
 MECHANICAL = {
@@ -54,20 +54,26 @@ THERMAL = {
     "porosity_heat_J": ("change of phase masses", "#999999"),
     "drained_heat_J": ("advected by drainage", SKY),
 }
-# Band columns: heat content, gains and losses. Friction heat is a term of THERMAL.
+# Band columns; friction heat is a term of THERMAL. Heat is zero for frozen material at 0 °C: that of the material which
+# joins and leaves columns depends on this reference state, and is not a term.
+_WARMING = "warming of columns"
 COLUMNS = {
-    "column_heat_J": ("heat in band columns", "#8C564B"),
-    "column_intake_J": ("gained from the body", SKY),
+    _WARMING: ("warming and melting of columns", "#8C564B"),
     "column_drained_J": ("lost with drained water", "#17BECF"),
     "column_steam_J": ("lost with steam", "#E377C2"),
-    "column_left_J": ("removed with segments", "#7F7F7F"),
 }
+_LEAST_SHOWN = 0.005  # of the maximum change of any term of a budget
 RESIDUALS = {"mechanical_residual_J": (MECHANICAL, BLUE), "thermal_residual_J": (THERMAL | COLUMNS, RED)}
 
 
 def term_changes(run: Run, terms: dict[str, tuple[str, str]]) -> dict[str, Numbers]:
     """Return each term [J, or J per metre of width] minus its first value, if the history has it."""
-    return {name: run.history[name] - run.history[name][0] for name in terms if name in run.history}
+    found = {name: run.history[name] for name in terms if name in run.history}
+    parts = ("column_heat_J", "column_intake_J", "column_left_J")
+    if _WARMING in terms and all(name in run.history for name in parts):
+        heat, joined, left = (run.history[name] for name in parts)
+        found[_WARMING] = heat - joined + left
+    return {name: found[name] - found[name][0] for name in terms if name in found}
 
 
 def relative_residual(run: Run, column: str) -> Numbers | None:
@@ -88,26 +94,30 @@ def energy(run: Run) -> Figure:
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
     title_figure(figure, run.titled("energy budget"))
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
-    zero = [*_plot_terms(mechanical, run, MECHANICAL), *_plot_terms(thermal, run, THERMAL | COLUMNS)]
+    omitted = [*_plot_terms(mechanical, run, MECHANICAL), *_plot_terms(thermal, run, THERMAL | COLUMNS)]
     _plot_residuals(residual, run)
     for axes in (mechanical, thermal, residual):
         time_axis(axes, time, TIME_LABEL if axes is residual else "")
     title_panels((mechanical, thermal, residual), ("mechanical energy budget", "thermal energy budget", "residual"))
-    if zero:
-        note_below(figure, f"Zero throughout: {', '.join(zero)}.")
+    if omitted:
+        words = f"below {number_text(100.0 * _LEAST_SHOWN)} % of the largest of their budget"
+        note_below(figure, f"Terms not shown, {words}: {', '.join(omitted)}.")
     return figure
 
 
 def _plot_terms(axes: Axes, run: Run, terms: dict[str, tuple[str, str]]) -> list[str]:
-    """Plot the terms that change; return the names of the others."""
+    """Plot the terms that are visible next to the largest one; return the names of the others."""
     found = term_changes(run, terms)
-    changing = {name: values for name, values in found.items() if np.nanmax(np.abs(values)) > 0.0}
+    peaks = {name: float(np.nanmax(np.abs(values))) for name, values in found.items()}
+    least = _LEAST_SHOWN * max(peaks.values(), default=0.0)
+    changing = {name: values for name, values in found.items() if peaks[name] > 0.0 and not peaks[name] < least}
     divisor, unit = prefixed([np.nanmax(np.abs(values)) for values in changing.values()] or [0.0], "J")
     axes.set_ylabel(f"energy change ({unit}{'/m of width' if run.per_metre else ''})")
     if changing:
         for name, values in changing.items():
             words, colour = terms[name]
-            time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words)
+            dashes = "--" if name == _WARMING else "-"  # often equal to friction heat
+            time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words, linestyle=dashes)
         axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
