@@ -9,10 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from reproduction.lamplugh import INVERSION, PHASE, zones
+from thawslide.figures.colours import PLASTIC_STRAIN, SPEED
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.load import load_on_band
 from thawslide.figures.snapshots import Zone as SnapshotZone
-from thawslide.figures.snapshots import plastic_strain, velocity
+from thawslide.figures.snapshots import plot_field
 from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
@@ -36,14 +37,16 @@ def snapshot_zones(run: Run) -> list[SnapshotZone]:
     return [SnapshotZone(zone.letter, zone.start, zone.end) for zone in zones(run)]
 
 
+@styled
 def figure_14(runs: dict[str, Run]) -> Figure:
     """Plot the velocity with the zones."""
-    return velocity(runs["lamplugh"], snapshot_zones(runs["lamplugh"]))
+    return plot_field(runs["lamplugh"], SPEED, snapshot_zones(runs["lamplugh"]))
 
 
+@styled
 def figure_15(runs: dict[str, Run]) -> Figure:
     """Plot the plastic strain with the zones."""
-    return plastic_strain(runs["lamplugh"], snapshot_zones(runs["lamplugh"]))
+    return plot_field(runs["lamplugh"], PLASTIC_STRAIN, snapshot_zones(runs["lamplugh"]))
 
 
 def _pair(axes: Axes, run: Run, left: tuple[Numbers, str], right: tuple[Numbers, str]) -> Axes:

@@ -37,6 +37,16 @@ def test_moments_are_fractions_of_the_displacement_without_times(make_run: MakeR
     assert [shot.time for shot in chosen_snapshots(Run(make_run(name="given", times="[1.0, 9.0]")))] == [1.0, 9.0]
 
 
+def test_few_moments_begin_at_the_peak_of_the_mean_velocity(make_run: MakeRun) -> None:
+    run = Run(make_run(times="[0.0, 1.0, 4.0, 6.0, 8.0, 9.0, 10.0]"))  # peak at 5 s
+    assert [shot.time for shot in chosen_snapshots(run, most=3)] == [4.0, 8.0, 10.0]
+    rising = {"mean_velocity_m_s": np.arange(101.0)}
+    late = Run(make_run(name="late", times="[0.0, 1.0, 4.0, 9.0]", history=rising))
+    assert [shot.time for shot in chosen_snapshots(late, most=3)] == [1.0, 4.0, 9.0]
+    panels = [title for axes in FIGURES["velocity"].plot(run).axes if (title := axes.get_title(loc="left"))[:1] == "("]
+    assert panels == ["(a) t = 4 s", "(b) t = 8 s", "(c) t = 10 s"]
+
+
 def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
     """The velocities of the file increase with time; its points move at (12, -6) m/s."""
     run = Run(make_run())

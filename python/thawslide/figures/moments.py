@@ -9,6 +9,7 @@ import numpy as np
 from thawslide.errors import NotInRunError
 from thawslide.number_text import exact_text, number_text
 from thawslide.run_folder import Numbers, Run, Snapshot
+from thawslide.section_thickness import spaced
 
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 FRACTIONS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # of the final mean displacement
@@ -26,18 +27,28 @@ def moments(run: Run) -> list[float]:
     return [float(time) for time in np.linspace(run.times[0], run.times[-1], len(FRACTIONS))]
 
 
-def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
+def chosen_snapshots(run: Run, fields: Collection[str] | None = None, most: int = len(LETTERS)) -> list[Snapshot]:
     """Return the snapshots nearest to the report times of the case, or to `moments`, each once.
 
-    The last state of an incomplete run is added. Velocities are those of
-    displacement.
+    The last state of an incomplete run is added. More than `most` are thinned evenly between the one nearest to the
+    peak of the mean velocity and the last one. Velocities are those of displacement.
     """
     if not len(run.times):
         raise NotInRunError(f"{run.folder}: no snapshots. Set time.output_interval and repeat the run.")
     wanted = run.report_times or moments(run)
     found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
     indices = sorted(found if run.is_complete else found | {len(run.times) - 1})[: len(LETTERS)]
+    if len(indices) > most:
+        first = int(np.argmin(np.abs(run.times[indices] - _time_of_peak(run))))
+        indices = indices[min(first, len(indices) - most) :]
+        indices = [indices[place] for place in spaced(len(indices), most)]
     return [shown_snapshot(run, index, fields) for index in indices]
+
+
+def _time_of_peak(run: Run) -> float:
+    """Return the time [s] of the maximum mean velocity, 0 without one."""
+    speed = run.history["mean_velocity_m_s"] if "mean_velocity_m_s" in run.history else np.zeros(0)
+    return float(run.history["time_s"][int(np.nanargmax(speed))]) if np.isfinite(speed).any() else 0.0
 
 
 def shown_snapshot(run: Run, index: int, fields: Collection[str] | None = None) -> Snapshot:

@@ -54,6 +54,7 @@ _OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pre
 # Layout of the page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = COLUMN_WIDTH, 0.65, 0.12, 0.7
 _PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.75, 0.13
+_MOST_TIMES = 3  # of speed and plastic strain, in one column of panels
 _SAME_SCALE = 0.1  # relative difference of scales below which a strip repeats its panel
 _OVERVIEW_MARGINS = (1.0, 1.15)
 _TITLE_LINE, _TITLE_CHARACTERS = 0.17, 12.5  # inches; characters in one inch
@@ -67,13 +68,13 @@ def time_text(run: Run, shot: Snapshot) -> str:
 @styled
 def velocity(run: Run, zones: Sequence[Zone] = ()) -> Figure:
     """Plot the speed (Fig. 14)."""
-    return plot_field(run, SPEED, zones)
+    return plot_field(run, SPEED, zones, _MOST_TIMES)
 
 
 @styled
 def plastic_strain(run: Run, zones: Sequence[Zone] = ()) -> Figure:
     """Plot the equivalent plastic strain (Fig. 15)."""
-    return plot_field(run, PLASTIC_STRAIN, zones)
+    return plot_field(run, PLASTIC_STRAIN, zones, _MOST_TIMES)
 
 
 @styled
@@ -88,12 +89,12 @@ def pore_pressure(run: Run) -> Figure:
     return plot_field(run, PORE_PRESSURE)
 
 
-def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figure:
-    """Plot an overview of the whole profile, a panel for each report time and one colour bar.
+def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = (), most: int = len(LETTERS)) -> Figure:
+    """Plot an overview of the whole profile, a panel for each of at most `most` times and one colour bar.
 
     Zones are between grey dotted lines, with their names in the overview and in panels.
     """
-    shots = chosen_snapshots(run, ("volume", *_OF_WARNINGS.get(painting.field, ()), painting.field))
+    shots = chosen_snapshots(run, ("volume", *_OF_WARNINGS.get(painting.field, ()), painting.field), most)
     values = [painted_values(shot, painting.field) for shot in shots]
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
     values = [value / divisor for value in values]
@@ -141,7 +142,7 @@ class _Page:
     """Positions on the page, in inches from the top left corner."""
 
     def __init__(self, run: Run, shots: list[Snapshot], words: str) -> None:
-        columns = 1 if len(shots) == 1 else 2
+        columns = 1 if len(shots) in (1, _MOST_TIMES) else 2
         self.columns = columns
         self.full = _WIDTH - _LEFT - _RIGHT
         self.panel_width = (self.full - (columns - 1) * _GAP) / columns
