@@ -37,7 +37,8 @@ void report_valley_factor(const std::vector<sim::HistoryRow>& rows, Observer& ob
 // Runs a 3D case as a section along its path.
 std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings, Observer& observer) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
-  std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site, section.valley_factor);
+  std::vector<sim::HistoryRow> rows =
+      sim::run_block(section.parameters, section.site, section.valley_factor, section.start);
   observer.line(
       "a section along {}, with the mean thickness of the release across the path; front positions are distances along "
       "it",

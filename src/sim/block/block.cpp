@@ -143,7 +143,8 @@ Forces forces_on_slices(const Model<2>& model, const Path& path, const Slices& s
 // Rigid block of slices with its column, advanced step by step.
 class Block {
  public:
-  Block(const config::Case& parameters, Table valley_factor, const Model<2>& model, const mpm::Particles<2>& particles)
+  Block(const config::Case& parameters, Table valley_factor, const std::optional<BlockStart>& given,
+        const Model<2>& model, const mpm::Particles<2>& particles)
       : parameters_(parameters),
         model_(model),
         path_(model),
@@ -155,11 +156,10 @@ class Block {
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
     const std::vector<BodyAtStart> bodies = bodies_at_start(model, particles, parameters.grid.cell);
     direction_ = direction_of(bodies, {});
-    rear_ = on_ground((direction_ > 0.0 ? bodies.front().lower : bodies.front().upper) - model.origin[0]);
     up_ = -model.motion.gravity.normalized();
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      top_ = std::max(top_, up_.dot(Vector<double, 2>(particles.position(p, 0), particles.position(p, 1))));
-    }
+    const BlockStart extent = given ? *given : extent_of(bodies.front(), particles);
+    rear_ = on_ground((direction_ > 0.0 ? extent.from : extent.to) - model.origin[0]);
+    top_ = extent.top - up_.dot(Vector<double, 2>(model.origin[0], model.origin[1]));
   }
 
   void step(double dt) {
@@ -215,6 +215,16 @@ class Block {
 
   // Point of the ground at x; both relative to the domain's lower corner [m].
   [[nodiscard]] Vector<double, 2> on_ground(double x) const { return {x, model_.profile->height(x)}; }
+
+  [[nodiscard]] BlockStart extent_of(const BodyAtStart& body, const mpm::Particles<2>& particles) const {
+    double top = -HUGE_VAL;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Vector<double, 2> position(particles.position(p, 0) + model_.origin[0],
+                                       particles.position(p, 1) + model_.origin[1]);
+      top = std::max(top, up_.dot(position));
+    }
+    return {body.lower, body.upper, top};
+  }
 
   [[nodiscard]] AnyColumn make_column(std::int32_t material) const {
     const BlockColumn::Initial rows = initial_column(material);
@@ -318,7 +328,8 @@ void require_one_body(const config::Case& parameters) {
   }
 }
 
-std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site, Table valley_factor) {
+std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site, Table valley_factor,
+                                  const std::optional<BlockStart>& start) {
   if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
     throw UserError(
         fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM. "
@@ -338,7 +349,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   const Model<2> model = make_model<2>(parameters, site);
   mpm::Particles<2> particles;
   fill_bodies(parameters, site, model, particles);
-  Block block(parameters, std::move(valley_factor), model, particles);
+  Block block(parameters, std::move(valley_factor), start, model, particles);
   const StepLimit limit =
       step_limit(parameters, model, parameters.band.thickness.smallest(), extremes_of(model, particles));
   double dt = parameters.time.step;

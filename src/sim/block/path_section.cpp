@@ -7,12 +7,12 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/table.hpp"
-#include "sim/block/block.hpp"
 #include "sim/block/section.hpp"
 #include "sim/block/steepest_descent.hpp"
 #include "sim/checks/valley_factor.hpp"
 #include "sim/maps/path_line.hpp"
 #include "sim/setup/release_body.hpp"
+#include "sim/setup/release_extent.hpp"
 #include "sim/setup/substrates.hpp"
 #include "terrain/height_field.hpp"
 
@@ -104,6 +104,17 @@ void make_plain(InitialField& field, const std::string& key, const config::Relea
   } else if (field.over == InitialField::Over::x) {
     field = InitialField(field.at(0.0, east / volume));
   }
+}
+
+// Extent of the whole release along the path, and its highest point, as in a run of the case.
+BlockStart start_of(const PathLine& line, const config::Release& release, const Raster& ground) {
+  BlockStart start{HUGE_VAL, -HUGE_VAL, top_of(release, ground)};
+  for (const Point2& corner : corners_of(release)) {
+    const double along = line.project(corner).along;
+    start.from = std::min(start.from, along);
+    start.to = std::max(start.to, along);
+  }
+  return start;
 }
 
 void require_section(const config::Case& parameters) {
@@ -268,6 +279,7 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   section.valley_factor =
       Table(profile.distance, valley_factors(line, profile.distance, ground,
                                              {on_path.width, on_path.cross_area, std::max(0.5 * cell, points_apart)}));
+  section.start = start_of(line, release, ground);
   section.site.stretches = stretches_along(parameters, site, line, profile.distance);
 
   section.parameters = parameters;

@@ -15,6 +15,7 @@
 #include "base/table.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
+#include "sim/block/block.hpp"
 #include "sim/maps/path_line.hpp"
 
 namespace thawslide::sim {
@@ -23,6 +24,7 @@ struct PathSection {
   config::Case parameters;  // 2D: x is the distance along the path [m], y the elevation [m]
   config::Site site;        // contains the profile
   Table valley_factor;      // over the distance (valley_factor.hpp)
+  BlockStart start;         // of the whole release
   bool path_given = true;   // false: found by steepest descent
   double off_steepest = 0;  // angle between the path and the steepest descent at the release's middle [degrees]
 

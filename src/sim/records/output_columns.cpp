@@ -181,7 +181,7 @@ const ColumnGroup& block_columns() {
        {"displacement_m", "m", "displacement along the ground, positive in the same direction"},
        {"front_position_m", "m", "x of the front; in 3D the distance along the path"},
        {"travel_distance_m", "m", "horizontal distance from the rear at t = 0 to the front, in 3D along the path"},
-       {"drop_height_m", "m", "height of the highest particle at t = 0 above the ground at the front"},
+       {"drop_height_m", "m", "highest particle at t = 0, in 3D top of the release, above the ground at the front"},
        {"normal_pressure_Pa", "Pa", "mean normal pressure at the base"},
        {"pore_pressure_Pa", "Pa", "pore pressure at the base; 0 if pore pressure or pressurization is disabled"},
        {"sliding_strength_Pa", "Pa", "sliding strength of the base"},

@@ -11,6 +11,7 @@
 #include "base/state_numbers.hpp"
 #include "device/solver.hpp"
 #include "mpm/sum_over_particles.hpp"
+#include "sim/setup/release_extent.hpp"
 
 namespace thawslide::sim {
 
@@ -64,15 +65,6 @@ std::vector<SegmentBelow> segments_below(const Simulation<3>& simulation) {
   return segments;
 }
 
-// Adds the corners of the cell around a raster point.
-void add_cell(const Raster& raster, int column, int row, config::Polyline2& corners) {
-  for (const double i : {-0.5, 0.5}) {
-    for (const double j : {-0.5, 0.5}) {
-      corners.push_back({raster.x + (column + i) * raster.cell_x, raster.y + (row + j) * raster.cell_y});
-    }
-  }
-}
-
 // Corners that bound each body at the start: release outlines, raster cells of releases, and boxes.
 std::vector<config::Polyline2> corners_at_start(const config::Case& parameters,
                                                 const std::map<std::string, config::Release>& releases) {
@@ -88,17 +80,7 @@ std::vector<config::Polyline2> corners_at_start(const config::Case& parameters,
       }
       continue;
     }
-    for (const config::Polyline2& ring : release->second.outlines) {
-      corners.insert(corners.end(), ring.begin(), ring.end());
-    }
-    const Raster& thickness = release->second.thickness;
-    for (int row = 0; release->second.outlines.empty() && row < thickness.rows; ++row) {
-      for (int column = 0; column < thickness.columns; ++column) {
-        if (thickness.at(column, row) > 0.0) {
-          add_cell(thickness, column, row, corners);
-        }
-      }
-    }
+    corners = corners_of(release->second);
   }
   return of_bodies;
 }

@@ -165,8 +165,9 @@ Rows rows_of(const Variant& variant) {
 
 void expect_mirrored(const HistoryRow& row, const HistoryRow& mirrored) {
   ASSERT_EQ(row.size(), mirrored.size());
-  for (const char* name : {"mean_velocity_m_s", "velocity_m_s", "displacement_m", "mean_displacement_m", "runout_m",
-                           "sliding_strength_Pa", "driving_traction_Pa", "friction_work_J", "friction_work_J_m2"}) {
+  for (const char* name :
+       {"mean_velocity_m_s", "velocity_m_s", "displacement_m", "mean_displacement_m", "runout_m", "travel_distance_m",
+        "drop_height_m", "sliding_strength_Pa", "driving_traction_Pa", "friction_work_J", "friction_work_J_m2"}) {
     for (std::size_t k = 0; k < row.size(); ++k) {
       if (row[k].first == name) {
         EXPECT_NEAR(mirrored[k].second, row[k].second, 1e-6 * (1e-3 + std::abs(row[k].second))) << name;
