@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +30,7 @@ def write_prior(found: dict[str, Any], folder: Path) -> Path:
 
 def prior_lines(found: dict[str, Any]) -> list[str]:
     """Return the check as lines of text."""
-    rows = [list(_HEAD), *_cells(found["rows"])]
+    rows = [list(_HEAD), *_cells(found)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = [
         "  ".join(
@@ -49,7 +48,7 @@ def prior_section(folder: Path) -> str:
         return ""
     try:
         found = read_json(path, 64 * MEGABYTE)
-        parts = ["<h2>Prior check</h2>", table(_cells(found["rows"]), "runs", _HEAD)]
+        parts = ["<h2>Prior check</h2>", table(_cells(found), "runs", _HEAD)]
         notes = [*found["notes"], _WEIGHTED if found["weights"] else _EQUAL]
         parts += [f"<p><small>{html.escape(note)}.</small></p>" for note in notes]
     except (ReportError, KeyError, TypeError, ValueError):
@@ -61,5 +60,17 @@ _EQUAL = "All members are equally probable"
 _WEIGHTED = "All results are weighted: the rigid blocks of the members have the H/L distribution of the events"
 
 
-def _cells(rows: Sequence[Sequence[Any]]) -> list[list[str]]:
-    return [[words, f"{count:,}", *(number_text(value, 2) for value in values)] for words, count, *values in rows]
+def _cells(found: dict[str, Any]) -> list[list[str]]:
+    """Return the rows as text. Quantiles of blocks up to the largest upper limit are upper limits too."""
+    limit, events = found.get("limit"), len(found["events"])
+
+    def text(value: float, is_of_blocks: bool) -> str:
+        is_limit = is_of_blocks and limit is not None and value <= limit
+        return f"≤ {number_text(value, 2)}" if is_limit else number_text(value, 2)
+
+    rows = found["rows"]
+    last = len(rows) - 1 if events else len(rows)  # the last row is that of the events
+    return [
+        [words, f"{count:,}", *(text(value, row < last) for value in values)]
+        for row, (words, count, *values) in enumerate(rows)
+    ]

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from thawslide.arrays import Numbers
 from thawslide.case import toml_text
@@ -23,6 +24,7 @@ from thawslide.scores.forecast import MOVES, Forecast
 from thawslide.sweeps.sensitivity import effective_number
 
 LEAST_MEMBERS = 10  # with H/L
+LEFT = "left_path_at_s"  # column of blocks that leave the DEM or reach the end of their path
 _LEAVES = 1.0  # m: displacement from which a block has left
 _TIMEOUT = 600.0  # seconds
 
@@ -35,6 +37,7 @@ class Prior:
     kind: str  # of the events, "" for all
     members: list[int]
     ratios: Numbers
+    is_limit: NDArray[np.bool_]  # blocks whose ratio is an upper limit, because they still move
     events: dict[str, float]  # H/L by name
     weights: Numbers | None  # of the blocks, sum 1; None: equally probable members
     notes: list[str] = field(default_factory=list)
@@ -58,13 +61,16 @@ class Prior:
     def as_table(self) -> dict[str, Any]:
         """Return the check as values of a JSON file."""
         weights = None if self.weights is None else dict(zip(self.members, map(float, self.weights), strict=True))
+        limits = self.ratios[self.is_limit]
         return {
             "volume_m3": self.volume,
             "kind": self.kind,
             "rows": self.rows(),
+            "limit": float(limits.max()) if limits.size else None,
             "notes": self.notes,
             "events": self.events,
             "h_over_l": dict(zip(self.members, map(float, self.ratios), strict=True)),
+            "is_limit": [number for number, is_limit in zip(self.members, self.is_limit, strict=True) if is_limit],
             "weights": weights,
         }
 
@@ -72,7 +78,8 @@ class Prior:
 def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool, but: str = "") -> Prior:
     """Compare the blocks with events of a volume [m3] and kind ("" for all), without the event of a name.
 
-    ReportError if no block leaves or too few have H/L; with weights, also if the members do not cover the events.
+    H/L of a block that still moves at the end of its path or of its time is an upper limit. ReportError if no block
+    leaves or too few have H/L; with weights, also if the members do not cover the events.
     """
     ratios = blocks.columns.get("h_over_l", np.full(len(blocks.members), math.nan))
     known = np.isfinite(ratios)
@@ -87,13 +94,6 @@ def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool, b
             f"{blocks.folder}: no member leaves (found {len(stays)} rigid blocks at rest). Lower the friction or the "
             "cohesion in sweep.toml."
         )
-    moving = int(np.count_nonzero(blocks.columns[MOVES][known]))
-    if is_weighted and moving > 0.5 * len(stays):
-        raise ReportError(
-            f"--prior events: most rigid blocks still move at the end of their path or at time.end (found {moving} of "
-            f"{len(stays)}; allowed: at most half). Set maps.path to a longer line, use a larger DEM, raise time.end, "
-            "or use --prior sweep."
-        )
     notes = list(blocks.notes)
     if stays.any():
         what = "they have no weight, because every event left" if is_weighted else "their H/L is that of the release"
@@ -107,9 +107,27 @@ def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool, b
             raise ReportError(f"--prior events: {what}. Use --prior sweep, or another --kind.")
         notes.append(f"no comparison: {what}")
     ratio_of = {event.name: event.ratio for event in events}
-    weights = member_weights(ratios[known], np.array(list(ratio_of.values()))) if is_weighted else None
+    has_left = np.isfinite(blocks.columns.get(LEFT, np.full(len(known), math.nan)))
+    is_limit = ((blocks.columns[MOVES] > 0.0) | has_left)[known]
+    ratios, left = ratios[known], int(has_left[known].sum())
+    weights = member_weights(ratios, np.array(list(ratio_of.values())), is_limit) if is_weighted else None
+    if is_limit.any():
+        notes.append(_note_of_limits(ratios, is_limit, left, weights))
     members = [number for number, is_known in zip(blocks.members, known, strict=True) if is_known]
-    return Prior(volume, kind, members, ratios[known], ratio_of, weights, notes)
+    return Prior(volume, kind, members, ratios, is_limit, ratio_of, weights, notes)
+
+
+def _note_of_limits(ratios: Numbers, is_limit: NDArray[np.bool_], left: int, weights: Numbers | None) -> str:
+    """Return the number of blocks with an upper limit of H/L, its largest value, and their weight."""
+    limits = ratios[is_limit]
+    others = f", {len(limits) - left} still move at time.end" if len(limits) > left else ""
+    text = (
+        f"{left} of {len(ratios)} blocks leave the DEM or reach the end of their path{others}. Their H/L is an upper "
+        f"limit, at most {limits.max():.2f}"
+    )
+    if weights is None:
+        return text
+    return f"{text}; they have {100.0 * weights[is_limit].sum():.0f} % of the weight, that of events of lower H/L"
 
 
 def release_volume(case_file: str, changes: Mapping[str, Any]) -> float:

@@ -23,6 +23,7 @@ NUMBERS = {
     "mean_displacement_m": ("mean displacement", "m"),
     "displacement_m": ("displacement", "m"),
     "runout_m": ("runout distance", "m"),
+    "left_path_at_s": ("time of leaving the path", "s"),
     "entrained_volume_m3": ("entrained volume", "m3"),
     "left_mass_kg": ("mass that left", "kg"),
     "dilation_fraction": ("relative volume change", ""),

@@ -127,7 +127,7 @@ def _evaluated(task: Task, folder: SweepFolder, run_folder: Path, report: Callab
         columns = {
             name: np.asarray(values) for name, values in _core.block(case._core, MemberObserver(report), 1).items()
         }
-        numbers = numbers_of_block(columns, expressions)
+        numbers = numbers_of_block(columns, expressions, case["time.end"])
         series = series_of(columns)
     else:
         _complete_run(case, run_folder, MemberObserver(report))

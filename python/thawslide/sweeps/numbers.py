@@ -19,6 +19,7 @@ from thawslide.section_thickness import peak_thickness
 from thawslide.sweeps.expressions import Expression
 
 _MOST_ROWS = 400  # of the time series of a member
+_ROUNDING = 1e-9  # of times
 _PEAKS = (
     ("mean_velocity_m_s", "peak_mean_velocity_m_s"),
     ("band_temperature_C", "max_band_temperature_C"),
@@ -67,11 +68,14 @@ def numbers_of_run(run: Run, expressions: Sequence[Expression]) -> dict[str, flo
     return _complete(numbers, history, expressions)
 
 
-def numbers_of_block(rows: Mapping[str, Numbers], expressions: Sequence[Expression]) -> dict[str, float]:
-    """Return the key numbers of a rigid block from the columns of its rows."""
+def numbers_of_block(
+    rows: Mapping[str, Numbers], expressions: Sequence[Expression], end: float = 0.0
+) -> dict[str, float]:
+    """Return the key numbers of a rigid block from the columns of its rows; end: of the case [s]."""
     height, length = float(rows["drop_height_m"][-1]), float(rows["travel_distance_m"][-1])
     numbers: dict[str, float | None] = {
         "simulated_time_s": float(rows["time_s"][-1]),
+        "left_path_at_s": float(rows["time_s"][-1]) if rows["time_s"][-1] < end * (1.0 - _ROUNDING) else None,
         "drop_height_m": height,
         "travel_distance_m": length,
         "h_over_l": height / length if length > 0.0 and height > 0.0 else None,
