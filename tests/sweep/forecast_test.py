@@ -17,6 +17,8 @@ from thawslide.case import Case
 from thawslide.errors import ReportError
 from thawslide.forecasts.command import main
 from thawslide.program import find_program
+from thawslide.scores.command import main as score
+from thawslide.scores.ensemble import crps
 from thawslide.sweeps.api import validated
 from thawslide.sweeps.design_file import read_sweep_file
 from thawslide.sweeps.folder import SweepFolder
@@ -105,12 +107,19 @@ def test_a_forecast_is_weighted_throughout_and_continues(
     assert summary.count('src="data:image/png') == 3 and "Fraction of the simulations that reach each place." in summary
     assert (output / "summary.pdf").is_file()
 
+    observed = tmp_path / "observed.toml"
+    observed.write_text('[travel_distance]\nvalue = 2.0\nunit = "km"\n')
+    assert score([str(output), "--observed", str(observed)]) == 0
+    first = json.loads((output / "score.json").read_text())["rows"][0]["members_crps"]
+
     SweepFolder(output).record_file(3).unlink()
     assert main([*command[:1], *command[3:]]) == 0
     second = pd.read_parquet(output / "members.parquet")
     assert list(second["starts"]) == [1] * 12 and "weight" not in second
     assert second["travel_distance_m"].equals(table["travel_distance_m"])
     assert read(output / "probability" / "reached.tif") == pytest.approx(np.isfinite(arrival).mean(axis=0))
+    after = json.loads((output / "score.json").read_text())["rows"][0]["members_crps"]
+    assert after == pytest.approx(crps(table["travel_distance_m"].to_numpy(), np.ones(12), 2000.0) / 1e3) != first
 
 
 def error(capfd: pytest.CaptureFixture[str], *words: object) -> str:

@@ -18,6 +18,7 @@ from thawslide.scores.command import main
 from thawslide.scores.ensemble import percentile
 from thawslide.scores.force import correlation
 from thawslide.scores.output import BEGIN, END, stored_section
+from thawslide.scores.renewal import renew_score
 from thawslide.sweeps.command import main as sweep
 
 # Two numbers of the rock avalanche at Joffre Peak, 2019 (Friele et al.); the sweep is synthetic.
@@ -278,6 +279,23 @@ def test_a_damaged_score_does_not_prevent_the_page(tmp_path: Path) -> None:
     for text in ("{", '{"opening": 3}', '{"opening": "a", "tables": [1], "notes": []}'):
         (tmp_path / "score.json").write_text(text)
         assert "score.json cannot be read. Repeat thawslide score." in stored_section(tmp_path)
+
+
+def test_a_score_of_other_weights_is_computed_again_or_removed(tmp_path: Path) -> None:
+    folder, said = tmp_path / "sweep", list[str]()
+    table = synthetic_sweep(folder)
+    equal = scored(folder, JOFFRE)
+    table.assign(weight=table["travel_distance_m"]).to_parquet(folder / "members.parquet", index=False)
+    renew_score(folder, said.append)
+    found = pd.read_csv(folder / "score.csv").set_index("quantity")
+    assert said == [f"score: {folder / 'score.json'}"] and not found.equals(equal)
+    assert found.equals(scored(folder, JOFFRE))
+    (tmp_path / "observed.toml").unlink()
+    renew_score(folder, said.append)
+    assert "score.json: removed, because it is of other members or weights" in said[1] and "observed.toml" in said[1]
+    assert not list(folder.glob("score*"))
+    renew_score(folder, said.append)
+    assert len(said) == 2
 
 
 def test_an_output_folder_is_used(tmp_path: Path) -> None:

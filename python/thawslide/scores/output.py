@@ -23,6 +23,7 @@ from thawslide.scores.score import Score
 from thawslide.text_files import MEGABYTE, read_json
 
 JSON, CSV, MEMBERS, PAGE = "score.json", "score.csv", "score-members.csv", "score.md"
+FILES = (JSON, CSV, MEMBERS, PAGE)
 BEGIN, END = "<!-- score -->", "<!-- end of the score -->"  # around the section of a page
 _NO_EVENTS = Distribution(0, *[math.nan] * 7)
 _MEANINGS = (
@@ -44,6 +45,7 @@ def write_score(score: Score, output: Path) -> tuple[str, list[Path]]:
         f"{what} compared with observations of {event.get('name', 'an event')}{source}, {score.observed.file.name}."
     )
     stored: dict[str, Any] = {"opening": opening, "rows": rows, "tables": tables}
+    stored["observed"] = str(score.observed.file.resolve())
     text = "\n\n".join(map(_markdown, tables))
     meanings = dict.fromkeys(f"{each.quantity.words}: {each.quantity.meaning}" for each, _, _ in score.rows)
     stored["notes"] = [*score.notes, *meanings, *_MEANINGS]

@@ -1,4 +1,4 @@
-"""Results of a whole sweep: table, probability maps and page."""
+"""Results of a whole sweep: table, probability maps, score and page."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from thawslide.errors import ReportError
+from thawslide.scores.renewal import renew_score
 from thawslide.sweeps.design import Design
 from thawslide.sweeps.folder import DONE, FINISHED, SweepFolder
 from thawslide.sweeps.page import write_page
@@ -28,7 +29,7 @@ def write_outcome(
     keep: str,
     report: Callable[[str], None],
 ) -> None:
-    """Write the probability maps of the members that are done, and the page; remove maps that are not kept."""
+    """Write the probability maps of the members that are done, an existing score and the page; remove other maps."""
     finished = members[members["status"] == DONE]
     done = [folder.run_folder(int(number)) for number in finished["member"]]
     weights = finished[WEIGHT].to_list() if WEIGHT in finished else None
@@ -38,6 +39,7 @@ def write_outcome(
             "members.parquet, or use --prior sweep."
         )
     maps = probability_maps_of(folder, done, thresholds, report, weights)
+    renew_score(folder.path, report)
     page = write_page(folder, design, members, results, maps)
     report(f"page: {page}")
     if keep == "none" and members["status"].isin(FINISHED).all():
