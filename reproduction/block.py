@@ -42,7 +42,7 @@ def drive_of(run: Run) -> Drive:
     heat = run.section("heat")
     return Drive(
         thickness,
-        float(run.history["time_s"][-1]),
+        float(run.series["time_s"][-1]),
         hydraulic_conductivity=float(material.get("hydraulic_conductivity", 0.0)),
         conduction=bool(heat.get("conduction", True)),
         latent=bool(heat.get("latent", True)),
@@ -61,21 +61,21 @@ def reference(run: Run) -> BandHistory:
 
 def at(run: Run, column: str, time: float) -> float:
     """Return a column's value at a time [s]; nan after the end of the run."""
-    times = run.history["time_s"]
-    return float(np.interp(time, times, run.history[column])) if time <= times[-1] + 1e-9 else float("nan")
+    times = run.series["time_s"]
+    return float(np.interp(time, times, run.series[column])) if time <= times[-1] + 1e-9 else float("nan")
 
 
 def first_time(run: Run, column: str, value: float) -> float:
     """Return the time [s] at which a column first attains a value; nan if it never does."""
-    reached = np.flatnonzero(run.history[column] >= value)
-    return float(run.history["time_s"][reached[0]]) if reached.size else float("nan")
+    reached = np.flatnonzero(run.series[column] >= value)
+    return float(run.series["time_s"][reached[0]]) if reached.size else float("nan")
 
 
 def differences(one: Run, other: Run, column: str) -> tuple[float, float]:
     """Return the maximum and the root mean square difference of a column between two runs over their common time."""
-    end = min(one.history["time_s"][-1], other.history["time_s"][-1])
+    end = min(one.series["time_s"][-1], other.series["time_s"][-1])
     times = np.linspace(0.1, end, 600)
-    first, second = (np.interp(times, run.history["time_s"], run.history[column]) for run in (one, other))
+    first, second = (np.interp(times, run.series["time_s"], run.series[column]) for run in (one, other))
     return float(np.max(np.abs(first - second))), float(np.sqrt(np.mean((first - second) ** 2)))
 
 
@@ -87,14 +87,14 @@ def clapeyron(temperature: float) -> float:
 
 def surge_saturation(run: Run) -> float:
     """Return the mean saturation of the band at the time at which its pressure rises fastest, over 2 % of the run."""
-    time, pressure = run.history["time_s"], run.history["band_pore_pressure_Pa"]
+    time, pressure = run.series["time_s"], run.series["band_pore_pressure_Pa"]
     span = 0.02 * time[-1]
     rise = np.interp(time + 0.5 * span, time, pressure) - np.interp(time - 0.5 * span, time, pressure)
-    return float(run.history["band_saturation"][int(np.argmax(rise))])
+    return float(run.series["band_saturation"][int(np.argmax(rise))])
 
 
 def _of_run(run: Run) -> dict[str, float]:
-    history, time = run.history, run.history["time_s"]
+    history, time = run.series, run.series["time_s"]
     model = reference(run)
     pressure = history["band_pore_pressure_Pa"]
     lowest = int(np.argmin(pressure))
@@ -159,9 +159,9 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         for column, name, _, scale in COLUMNS:
             gap, _ = differences(runs[f"block-{one}"], runs[f"block-{other}"], column)
             found[f"block_apart_{name}_{number}"] = gap / scale
-    still = runs["block-e050-no-viscosity"].history
+    still = runs["block-e050-no-viscosity"].series
     found["block_ringing_speed"] = float(np.max(still["max_velocity_m_s"]))
-    found["block_calm_speed"] = float(np.max(runs["block-e050"].history["max_velocity_m_s"]))
+    found["block_calm_speed"] = float(np.max(runs["block-e050"].series["max_velocity_m_s"]))
     lost = np.abs(still["mechanical_residual_J"][-1]) / max(still["friction_work_J"][-1], 1e-300)
     found["block_ringing_residual"] = 100.0 * float(lost)
     return found
@@ -206,12 +206,12 @@ def _plot(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             model = reference(run)
             for row, (column, quantity, _, scale) in enumerate(COLUMNS):
                 line = (model.time, getattr(model, quantity) / scale)
-                _panel(panels[row][side], run.history["time_s"], run.history[column] / scale, colour, words, line)
+                _panel(panels[row][side], run.series["time_s"], run.series[column] / scale, colour, words, line)
         for row, (_, _, words, _) in enumerate(COLUMNS):
             axes = panels[row][side]
             axes.set_ylabel(words)
             axes.grid(True)
-            axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
+            axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].series["time_s"][-1] for name, *_ in drawn)))
         panels[2][side].set_xlabel(TIME_LABEL)
         panels[1][side].set_ylim(-0.02, 1.02)
         mark(panels[1][side], EARLY, 1.0, "Lei et al.: melted", drawn[0][2])  # of e = 0.05 m

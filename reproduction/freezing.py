@@ -97,7 +97,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         slope, _ = slope_and_latent(run)
         found[f"{key}_gradient"] = 0.9 / slope / (thawed - frozen)
         printed = runs[name + PRINTED]
-        created, removed = (abs(float(printed.history[c][-1])) for c in ("capacity_heat_J", "boundary_heat_J"))
+        created, removed = (abs(float(printed.series[c][-1])) for c in ("capacity_heat_J", "boundary_heat_J"))
         found[f"{key}_printed_error"] = errors(printed)[0]
         found[f"{key}_printed_heat"] = 100.0 * created / max(removed, 1e-300)
     found["freezing_backward"] = backward  # maximum decrease of saturation with distance from the cold end

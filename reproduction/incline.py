@@ -40,7 +40,7 @@ _QUANTITIES = {
 
 def smooth(run: Run, column: str, span: float = 0.5) -> Numbers:
     """Return the running mean of a column over `span` seconds, because elastic waves modulate contact quantities."""
-    values, time = run.history[column], run.history["time_s"]
+    values, time = run.series[column], run.series["time_s"]
     rows = max(1, round(span / (time[1] - time[0]))) if len(time) > 1 else 1
     rows = min(rows, len(time))
     filled = np.where(np.isfinite(values), values, 0.0)
@@ -62,7 +62,7 @@ def flow_height(run: Run, time: float) -> float:
 
 def drag(run: Run) -> float:
     """Return the mean basal force from 15 to 25 s over the slope-normal weight; nan in a shorter run."""
-    history = run.history
+    history = run.series
     late = history["time_s"] >= LATE
     weight = float(history["mass_kg"][0]) * GRAVITY * float(np.cos(SLOPE))
     return float(np.mean(np.abs(history["basal_force_x_N"][late]))) / weight if late.any() else float("nan")
@@ -76,7 +76,7 @@ def friction_coefficient(porosity: float, saturation: float) -> float:
 
 def friction_decrease(run: Run) -> dict[str, float]:
     """Return the decrease of the coefficient of P-L to 25 s, the porosity of the band, and the decrease by porosity."""
-    friction = run.history["band_friction_coefficient"]
+    friction = run.series["band_friction_coefficient"]
     band = run.snapshot(time=25.0)
     inside = np.asarray(band["in_band"]) > 0
     porosity = float(np.mean(np.asarray(band["porosity"], dtype=np.float64)[inside])) if inside.any() else float("nan")
@@ -92,8 +92,8 @@ def friction_decrease(run: Run) -> dict[str, float]:
 
 def falls_below(run: Run, other: Run, column: str, after: float) -> float:
     """Return the first time [s] after a given one at which a column is below that of another run; nan for never."""
-    time = run.history["time_s"]
-    below = (run.history[column] < np.interp(time, other.history["time_s"], other.history[column])) & (time > after)
+    time = run.series["time_s"]
+    below = (run.series[column] < np.interp(time, other.series["time_s"], other.series[column])) & (time > after)
     return float(time[np.argmax(below)]) if below.any() else float("nan")
 
 
@@ -104,7 +104,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "incline_free_acceleration": free,
         "incline_free_velocity": 25.0 * free,
         "incline_normal_pressure": TABLE_1.density() * GRAVITY * HEIGHT * float(np.cos(SLOPE)) / 1e3,
-        "incline_DLP_start_pressure": float(runs["incline-DLP"].history["band_pore_pressure_Pa"][0]) / 1e3,
+        "incline_DLP_start_pressure": float(runs["incline-DLP"].series["band_pore_pressure_Pa"][0]) / 1e3,
     }
     for name in INCLINES:
         run, key = runs[f"incline-{name}"], f"incline_{name}"
@@ -113,7 +113,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
                 found[f"{key}_{quantity}_{time:g}s".replace(".", "_")] = at(run, column, time) / scale
         found[f"{key}_melted"] = first_time(run, "band_saturation", 0.99)
         found[f"{key}_half_melted"] = first_time(run, "band_saturation", 0.495)
-        history = run.history
+        history = run.series
         work = np.abs(history["potential_J"] - history["potential_J"][0]) + np.abs(history["friction_work_J"])
         residual = np.abs(history["mechanical_residual_J"][-1]) / max(work[-1], 1e-300)
         found[f"{key}_residual"] = 100.0 * float(residual)
@@ -137,9 +137,9 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     found |= friction_decrease(runs["incline-PL"])
     for name in ("D", "PL"):
         run, key = runs[f"incline-{name}-no-viscosity"], f"incline_{name}_undamped"
-        found[f"{key}_displacement"] = at(run, "mean_displacement_m", min(20.0, run.history["time_s"][-1]))
-        found[f"{key}_end"] = float(run.history["time_s"][-1])
-        found[f"{key}_displacement_end"] = float(run.history["mean_displacement_m"][-1])
+        found[f"{key}_displacement"] = at(run, "mean_displacement_m", min(20.0, run.series["time_s"][-1]))
+        found[f"{key}_end"] = float(run.series["time_s"][-1])
+        found[f"{key}_displacement_end"] = float(run.series["mean_displacement_m"][-1])
     found["incline_D_displacement_20s"] = at(runs["incline-D"], "mean_displacement_m", 20.0)
     return found
 
@@ -152,12 +152,12 @@ def _plot(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...
     for panel, (column, words, divisor, span) in zip(axes, panels, strict=True):
         for name in INCLINES:
             run = runs[f"incline-{name}"]
-            values = (smooth(run, column, span) if span else run.history[column]) / divisor
+            values = (smooth(run, column, span) if span else run.series[column]) / divisor
             dashes = "--" if name == "PL" else "-"  # it often coincides with D-L-P
-            time_line(panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name])
+            time_line(panel, run.series["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name])
         panel.set_ylabel(words)
         panel.set_xlabel(TIME_LABEL)
-        panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
+        panel.set_xlim(0.0, runs["incline-DLP"].series["time_s"][-1])
         panel.grid(True)
     axes[0].legend(loc="best")
     title_panels(axes, titles)
@@ -190,7 +190,7 @@ def figure_10(runs: dict[str, Run]) -> Figure:
     pressure.axhline(normal, color=NOTE, linewidth=0.9, linestyle=(0, (5, 3)))
     pressure.annotate("normal pressure", (0.99, normal), xycoords=("axes fraction", "data"), xytext=(0, 3), size=8,
                       ha="right", textcoords="offset points", color=NOTE)  # fmt: skip
-    highest = {name: float(np.nanmax(runs[f"incline-{name}"].history["band_pore_pressure_Pa"])) / 1e6
+    highest = {name: float(np.nanmax(runs[f"incline-{name}"].series["band_pore_pressure_Pa"])) / 1e6
                for name in ("D", "DL")}  # fmt: skip
     words = f"dotted: no effect on the base; maximum {highest['D']:.0f} MPa (D), {highest['DL']:.0f} MPa (D-L)"
     pressure.annotate(words, (0.015, 0.03), xycoords="axes fraction", size=8, color=NOTE)

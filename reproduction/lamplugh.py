@@ -137,7 +137,7 @@ def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
 
     Mass and length are those of half the time; gravity acts along the mean slope of the terrain below.
     """
-    history = run.history
+    history = run.series
     if float(history["time_s"][-1]) < end:
         return float("nan")
     assert run.terrain is not None
@@ -166,7 +166,7 @@ def near_ground(run: Run, time: float, height: float = 5.0, column: float = 10.0
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return the numbers of Sec. 4."""
     run, other = runs["lamplugh"], runs["lamplugh-no-pressurization"]
-    history, time = run.history, run.history["time_s"]
+    history, time = run.series, run.series["time_s"]
     speed = history["mean_velocity_m_s"]
     peak = int(np.argmax(speed))
     _, force = seismic_force(run)
@@ -218,8 +218,8 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_deposit_thickest": float(thickness.max()),
         "lamplugh_deposit_thickest_km": float(x[int(np.argmax(thickness))]) / 1e3,
         "lamplugh_deposit_length_km": float(np.ptp(x[thickness > 1.0])) / 1e3,
-        "lamplugh_dry_peak": float(other.history["mean_velocity_m_s"].max()),
-        "lamplugh_dry_displacement": float(other.history["mean_displacement_m"][-1]),
+        "lamplugh_dry_peak": float(other.series["mean_velocity_m_s"].max()),
+        "lamplugh_dry_displacement": float(other.series["mean_displacement_m"][-1]),
         "lamplugh_dry_stop": other_stopped if other_stopped is not None else float("nan"),
         "lamplugh_particles": float(len(run.snapshot(0).points)),
     }
@@ -284,11 +284,11 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
 def figure_blocks(runs: dict[str, Run]) -> Figure:
     """Plot velocity and displacement of the deforming body and of the rigid blocks, with the reported values."""
     run = runs["lamplugh"]
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 4.2), layout="constrained")
     speed, distance = figure.subplots(1, 2)
-    time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
-    time_line(distance, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
+    time_line(speed, time, run.series["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
+    time_line(distance, time, run.series["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
     histories = blocks(run)
     for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS[:2], ("--", "-."), strict=True):
         history, style = histories[block.key], {"color": colour, "linestyle": dashes}

@@ -51,7 +51,7 @@ def figure_15(runs: dict[str, Run]) -> Figure:
 
 def _pair(axes: Axes, run: Run, left: tuple[Numbers, str], right: tuple[Numbers, str]) -> Axes:
     """Plot one curve on the left axis in red, another on the right axis in blue; return the right axes."""
-    other, time = axes.twinx(), run.history["time_s"]
+    other, time = axes.twinx(), run.series["time_s"]
     for panel, (values, words), colour in ((axes, left, RED), (other, right, BLUE)):
         time_line(panel, time, values, color=colour)
         panel.set_ylabel(words, color=colour)
@@ -82,12 +82,12 @@ def _at_the_peak(axes: Axes, words: str, height: float, alignment: str) -> None:
 def figure_17(runs: dict[str, Run]) -> Figure:
     """Plot the contact force (red) and the mean plastic strain (blue) in one panel."""
     run = runs["lamplugh"]
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     _, magnitude = seismic_force(run)
     force = magnitude / 1e12
     figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
     axes = figure.subplots()
-    strain = run.history["mean_plastic_strain"]
+    strain = run.series["mean_plastic_strain"]
     names = ("force on the terrain minus static weight (TN)", "mean equivalent plastic strain")
     other = _pair(axes, run, (force, names[0]), (strain, names[1]))
     passed = force_in_band(run, INVERSION) / 1e12
@@ -111,7 +111,7 @@ def figure_17(runs: dict[str, Run]) -> Figure:
 def figure_20(runs: dict[str, Run]) -> Figure:
     """Plot (a) temperature and pore pressure, (b) saturation and friction coefficient of the band."""
     run = runs["lamplugh"]
-    history = run.history
+    history = run.series
     figure = Figure(figsize=(COLUMN_WIDTH, 5.8), layout="constrained")
     heat, melt = figure.subplots(2, 1, sharex=True)
     pressure = _pair(
@@ -125,7 +125,7 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     heat.set_xlabel("")
     pressure.set_ylim(bottom=0.0)
     when, load = load_on_band(run)
-    over = np.interp(when, run.history["time_s"], history["band_pore_pressure_Pa"]) / load
+    over = np.interp(when, run.series["time_s"], history["band_pore_pressure_Pa"]) / load
     found = (
         too_hot(run, history["band_temperature_C"], history["band_pore_pressure_Pa"]),
         too_much_for_overburden(over),

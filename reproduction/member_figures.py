@@ -21,9 +21,9 @@ MEMBER = "#B5B5B5"
 
 def on_common_times(runs: Sequence[Run], column: str) -> tuple[Numbers, Numbers]:
     """Return the common times [s] of all runs, and a column of each, shape (runs, times)."""
-    all_times = [run.history["time_s"] for run in runs]
+    all_times = [run.series["time_s"] for run in runs]
     time = np.arange(max(times[0] for times in all_times), min(times[-1] for times in all_times), STEP)
-    values = [np.interp(time, times, run.history[column]) for run, times in zip(runs, all_times, strict=True)]
+    values = [np.interp(time, times, run.series[column]) for run, times in zip(runs, all_times, strict=True)]
     return time, np.array(values)
 
 

@@ -106,7 +106,7 @@ def observed(folder: Path) -> Observed:
     if not (folder / "history.csv").is_file():
         return Observed(failure=failure(folder))
     run = Run(folder)
-    history, time = run.history, run.history["time_s"]
+    history, time = run.series, run.series["time_s"]
     speed = history["mean_velocity_m_s"]
     start, stop = time_of_speed(run, SET_SPEED), stop_time(run, REST)
     shift = SET_TIME - start

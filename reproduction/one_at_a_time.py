@@ -67,10 +67,10 @@ def outcome(folder: Path) -> Outcome:
         return Outcome(failure=failure(folder))
     why = incompleteness(folder)
     run = Run(folder)
-    time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
+    time_s, speed = run.series["time_s"], run.series["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))
     stopped = stop_time(run) if speed[peak] >= MOVED else None
-    band = run.history["band_temperature_C"]
+    band = run.series["band_temperature_C"]
     shot = run.snapshot(-1)
     order = np.argsort(shot.points[:, 0])
     volume = np.cumsum(np.asarray(shot["volume"], dtype=np.float64)[order])
@@ -82,9 +82,9 @@ def outcome(folder: Path) -> Outcome:
         peak_time=float(time_s[peak]),
         start_time=time_of_speed(run, STARTED),
         stop_time=stopped if stopped is not None else float("nan"),
-        displacement=float(run.history["mean_displacement_m"][-1]),
-        runout=float(run.history["runout_m"][-1]),
-        front=float(np.ptp(run.history["front_position_m"][[0, -1]])),
+        displacement=float(run.series["mean_displacement_m"][-1]),
+        runout=float(run.series["runout_m"][-1]),
+        front=float(np.ptp(run.series["front_position_m"][[0, -1]])),
         length=float(x[high] - x[low]),
         temperature=float(np.nanmax(band)) if np.isfinite(band).any() and not why else float("nan"),
         end_time=float(time_s[-1]),

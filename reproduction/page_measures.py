@@ -26,32 +26,32 @@ class Curve:
     """Values of the columns of a history: at the end, extremes, and at a time [s]."""
 
     def __init__(self, history: History) -> None:
-        self.history = history
+        self.series = history
 
     def end(self, column: str) -> float:
         """Return the last value."""
-        return float(self.history[column][-1])
+        return float(self.series[column][-1])
 
     def maximum(self, column: str) -> float:
         """Return the maximum."""
-        return float(np.nanmax(self.history[column]))
+        return float(np.nanmax(self.series[column]))
 
     def minimum(self, column: str) -> float:
         """Return the minimum."""
-        return float(np.nanmin(self.history[column]))
+        return float(np.nanmin(self.series[column]))
 
     def time_of_maximum(self, column: str) -> float:
         """Return the time [s] of the maximum."""
-        return float(self.history["time_s"][int(np.nanargmax(self.history[column]))])
+        return float(self.series["time_s"][int(np.nanargmax(self.series[column]))])
 
     def first_time(self, column: str, value: float) -> float:
         """Return the time [s] at which a column first attains a value, nan if it never does."""
-        reached = np.flatnonzero(self.history[column] >= value)
-        return float(self.history["time_s"][reached[0]]) if reached.size else float("nan")
+        reached = np.flatnonzero(self.series[column] >= value)
+        return float(self.series["time_s"][reached[0]]) if reached.size else float("nan")
 
     def at(self, time: float, column: str) -> float:
         """Return the value at a time [s]."""
-        return float(np.interp(time, self.history["time_s"], self.history[column]))
+        return float(np.interp(time, self.series["time_s"], self.series[column]))
 
 
 class Measured(Curve):
@@ -59,7 +59,7 @@ class Measured(Curve):
 
     def __init__(self, folder: Path) -> None:
         self.run = Run(folder)
-        super().__init__(self.run.history)
+        super().__init__(self.run.series)
 
     @cached_property
     def observed(self) -> Observed:
@@ -79,7 +79,7 @@ class Measured(Curve):
     @cached_property
     def front(self) -> float:
         """The front travel distance [m]."""
-        known = self.history["runout_m"][np.isfinite(self.history["runout_m"])]
+        known = self.series["runout_m"][np.isfinite(self.series["runout_m"])]
         return float(known[-1] - known[0])
 
     def fact(self, name: str) -> float:
@@ -107,17 +107,17 @@ class Measured(Curve):
     @property
     def force_time(self) -> float:
         """The time [s] of the maximum unfiltered force."""
-        return float(self.history["time_s"][int(np.nanargmax(self._whole_force()))])
+        return float(self.series["time_s"][int(np.nanargmax(self._whole_force()))])
 
     @property
     def first_force(self) -> tuple[float, float]:
         """Time [s] and value [N] of the maximum force in the first second."""
-        first = self.history["time_s"] <= 1.0
+        first = self.series["time_s"] <= 1.0
         force = np.nan_to_num(seismic_force(self.run)[1][first])
-        return float(self.history["time_s"][first][int(np.argmax(force))]), float(force.max())
+        return float(self.series["time_s"][first][int(np.argmax(force))]), float(force.max())
 
     def _whole_force(self) -> Numbers:
-        return np.asarray(np.where(self.history["time_s"] > 1.0, seismic_force(self.run)[1], np.nan))
+        return np.asarray(np.where(self.series["time_s"] > 1.0, seismic_force(self.run)[1], np.nan))
 
     @cached_property
     def comparison(self) -> Comparison:
@@ -156,13 +156,13 @@ class Measured(Curve):
     @property
     def entrained_fraction(self) -> float:
         """The ratio of entrained to initial mass."""
-        return self.end("entrained_mass_kg") / float(self.history["mass_kg"][0])
+        return self.end("entrained_mass_kg") / float(self.series["mass_kg"][0])
 
     @property
     def columns_over_slide(self) -> float:
         """The maximum ratio of ice and water in band columns to those in the sliding mass."""
-        body = self.history["ice_kg"] + self.history["water_kg"]
-        return float(np.max(self.history["column_water_kg"] / body))
+        body = self.series["ice_kg"] + self.series["water_kg"]
+        return float(np.max(self.series["column_water_kg"] / body))
 
     @property
     def volume(self) -> float:
@@ -216,7 +216,7 @@ class Block(Curve):
     @property
     def safety(self) -> float:
         """The safety factor at the start."""
-        return float(self.history["sliding_strength_Pa"][0] / self.history["driving_traction_Pa"][0])
+        return float(self.series["sliding_strength_Pa"][0] / self.series["driving_traction_Pa"][0])
 
 
 def cells_of(line: str) -> list[str]:

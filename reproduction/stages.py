@@ -99,7 +99,7 @@ def _body(run: Run) -> dict[str, float]:
     assert run.terrain is not None
     x, z = run.terrain
     along = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(x), np.diff(z)))))
-    history = run.history
+    history = run.series
     return {
         "lamplugh_volume": section * run.width / 1e6,
         "lamplugh_thickness": section / float(np.interp(high, x, along) - np.interp(low, x, along)),
@@ -111,7 +111,7 @@ def _body(run: Run) -> dict[str, float]:
 
 def _energy(run: Run) -> dict[str, float]:
     """Return the conversion of potential to kinetic energy [%], between 40 and 75 s and to the peak."""
-    history = run.history
+    history = run.series
     kinetic = [at(run, "kinetic_J", time) / 1e12 for time in (START, PEAK)]
     fall = (at(run, "potential_J", START) - at(run, "potential_J", PEAK)) / 1e12
     peak = int(np.argmax(history["kinetic_J"]))
@@ -128,7 +128,7 @@ def _energy(run: Run) -> dict[str, float]:
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return speeds and heating of the stages."""
     run, dry = runs["lamplugh"], runs["lamplugh-no-pressurization"]
-    saturations = [float(run.history["band_saturation"][0])]
+    saturations = [float(run.series["band_saturation"][0])]
     saturations += [at(run, "band_saturation", time) for time in (START, PEAK)]
     ice = 1.0 - saturations[0]
     found = {
@@ -139,12 +139,12 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_friction_100s": at(run, "band_friction_coefficient", 100.0),
         "lamplugh_basal_resistance": basal_resistance(run),
         "lamplugh_dry_basal_resistance": basal_resistance(dry),
-        "lamplugh_dry_runout_km": float(dry.history["runout_m"][-1]) / 1e3,
+        "lamplugh_dry_runout_km": float(dry.series["runout_m"][-1]) / 1e3,
         "lamplugh_melted_before": 100.0 * (saturations[1] - saturations[0]) / ice,
         "lamplugh_melted_between": 100.0 * (saturations[2] - saturations[1]) / ice,
         "lamplugh_solid_start": solid_fraction(run, 0.0),
     }
-    start = float(run.history["band_temperature_C"][0])
+    start = float(run.series["band_temperature_C"][0])
     for time in (START, PEAK):
         found[f"lamplugh_rise_{time:.0f}s"] = at(run, "band_temperature_C", time) - start
     for time in (START, PEAK, 100.0):

@@ -5,7 +5,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.run_folder import History, Run, Snapshot, Target
+from thawslide.run_folder import Run, Snapshot, Target
 
 if TYPE_CHECKING:
     from thawslide._core import DeviceError, RunError, UserError, WriteError
@@ -24,7 +24,6 @@ __all__ = [
     "Case",
     "ContactNodes",
     "DeviceError",
-    "History",
     "Logger",
     "NotInRunError",
     "ReportError",

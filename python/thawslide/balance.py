@@ -46,15 +46,15 @@ class Balance:
 def balances(run: Run) -> list[Balance]:
     """Return the balances for which the history has columns; without any change of a term, a residual is zero."""
     found = []
-    if "mass_residual_kg" in run.history:
-        residual = _largest(np.abs(run.history["mass_residual_kg"]))
-        mass = float(run.history["mass_kg"][0])
-        if "entrained_mass_kg" in run.history:
-            mass += float(np.nanmax(run.history["entrained_mass_kg"], initial=0.0))
+    if "mass_residual_kg" in run.series:
+        residual = _largest(np.abs(run.series["mass_residual_kg"]))
+        mass = float(run.series["mass_kg"][0])
+        if "entrained_mass_kg" in run.series:
+            mass += float(np.nanmax(run.series["entrained_mass_kg"], initial=0.0))
         fraction = residual / mass if mass > 0.0 else 0.0
         found.append(Balance("Mass", fraction, MASS_LIMIT, "the initial and entrained mass"))
     for words, column in (("Mechanical energy", "mechanical_residual_J"), ("Thermal energy", "thermal_residual_J")):
-        if column in run.history:
+        if column in run.series:
             values = relative_residual(run, column)
             largest = 0.0 if values is None else _largest(values)
             found.append(Balance(words, largest, ENERGY_LIMIT, "the maximum change of any term"))

@@ -71,7 +71,7 @@ def _pages(given: argparse.Namespace) -> int:
 
 def _opened(folder: Path) -> Run:
     run = Run(folder, skip_damaged=True)
-    print_line(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots")
+    print_line(f"{run.title}: {run.series.rows} rows of history, {len(run.snapshot_files)} snapshots")
     return run
 
 

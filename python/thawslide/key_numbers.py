@@ -21,20 +21,20 @@ def stop_time(run: Run, below: float | None = None) -> float | None:
 
     None if it never exceeds the value, or exceeds it at the end.
     """
-    speed = run.history["mean_velocity_m_s"]
+    speed = run.series["mean_velocity_m_s"]
     if not np.isfinite(speed).any() or np.nanmax(speed) <= 0.0:
         return None
     moving = np.flatnonzero(~(speed < (STOPPED_FRACTION * np.nanmax(speed) if below is None else below)))
     if not moving.size:
         return None
     last = int(moving[-1])
-    return float(run.history["time_s"][last + 1]) if last + 1 < len(speed) else None
+    return float(run.series["time_s"][last + 1]) if last + 1 < len(speed) else None
 
 
 def key_numbers(run: Run) -> list[KeyNumber]:
     """Return the rows for which the run has columns."""
-    history = run.history
-    time = run.history["time_s"]
+    history = run.series
+    time = run.series["time_s"]
     rows = main_numbers(run)
     end = float(history["time_s"][-1])
     rows.append(KeyNumber("Simulated time", quantity_text(end, "s"), "", "simulated_time_s", end))
@@ -69,8 +69,8 @@ def found_for(run: Run, target: Target) -> str:
         return f"{quantity_text(start, 's')} after the start" if np.isfinite(start) else "never"
     if not quantity_of(target.quantity).is_compared:
         return "not compared"
-    if quantity_of(target.quantity).column in run.history:
-        first, last = (float(run.history["time_s"][end]) for end in (0, -1))
+    if quantity_of(target.quantity).column in run.series:
+        first, last = (float(run.series["time_s"][end]) for end in (0, -1))
         if has_time_reference(run) and not first <= target.time <= last:
             return f"not compared: time outside the run ({number_text(first)} to {number_text(last)} s)"
     value = _found(run, target)
@@ -82,7 +82,7 @@ def found_for(run: Run, target: Target) -> str:
 
 def _why_not(run: Run, target: Target) -> str:
     """Return the reason why a run has no value for a reported one."""
-    if quantity_of(target.quantity).column in run.history:
+    if quantity_of(target.quantity).column in run.series:
         return "not compared: the run never attains start_velocity"
     if quantity_of(target.quantity).fact:
         return "not available: incomplete run" if run.dimension == 3 else "not available in 2D"
@@ -93,11 +93,11 @@ def _why_not(run: Run, target: Target) -> str:
 
 def _found(run: Run, target: Target) -> float | None:
     """Return the value of a run for a reported value within its times, in the first unit of its quantity, or None."""
-    history, quantity = run.history, quantity_of(target.quantity)
+    history, quantity = run.series, quantity_of(target.quantity)
     if quantity.column in history:
         if not has_time_reference(run):
             return None
-        return float(np.interp(target.time, run.history["time_s"], history[quantity.column]))
+        return float(np.interp(target.time, run.series["time_s"], history[quantity.column]))
     if quantity.fact:
         fact = run.facts.get(quantity.fact)
         return None if fact is None else float(fact)
@@ -112,12 +112,12 @@ def _found(run: Run, target: Target) -> float | None:
 
 def boiling_note(run: Run) -> str:
     """Return a sentence if a band without boiling exceeds 100 °C, "" otherwise."""
-    if "band_temperature_C" not in run.history or (run.has_band_columns and run.section("heat").get("steam", True)):
+    if "band_temperature_C" not in run.series or (run.has_band_columns and run.section("heat").get("steam", True)):
         return ""
-    values = run.history["band_temperature_C"]
+    values = run.series["band_temperature_C"]
     if not np.any(values > BOILING):
         return ""
-    first = float(run.history["time_s"][int(np.argmax(values > BOILING))])
+    first = float(run.series["time_s"][int(np.argmax(values > BOILING))])
     highest = quantity_text(float(np.nanmax(values)), "°C")
     reason = "heat.steam is false" if run.has_band_columns else "the model has no boiling in particles"
     return (
@@ -128,7 +128,7 @@ def boiling_note(run: Run) -> str:
 
 def _stop_number(run: Run) -> KeyNumber:
     """Return the time of rest, or without it in run.json the time from which on the mean velocity is low."""
-    key, last = "stop_time_s", quantity_text(float(run.history["mean_velocity_m_s"][-1]), "m/s")
+    key, last = "stop_time_s", quantity_text(float(run.series["mean_velocity_m_s"][-1]), "m/s")
     since = run.facts.get("rest_since_s")
     remark = "mean velocity below 1 % of its peak afterwards" if since is None else "at rest afterwards"
     stopped = since if since is not None else None if run.is_moving_at_end else stop_time(run)
@@ -140,7 +140,7 @@ def _stop_number(run: Run) -> KeyNumber:
 
 def _volume_numbers(run: Run) -> list[KeyNumber]:
     """Return the volume change by dilation, and the removed mass."""
-    rows, history, per = [], run.history, "/m of width" if run.per_metre else ""
+    rows, history, per = [], run.series, "/m of width" if run.per_metre else ""
     if "dilation_volume_m3" in history:
         fraction, volume = (float(history[f"dilation_{each}"][-1]) for each in ("fraction", "volume_m3"))
         change = f"{100.0 * fraction:+.1f} %".replace("-", "−")
@@ -163,7 +163,7 @@ def _force_numbers(run: Run) -> list[KeyNumber]:
     for words, (key, magnitude) in forces.items():
         if np.isfinite(magnitude).any():
             at = int(np.nanargmax(magnitude))
-            when = f"at {quantity_text(float(run.history['time_s'][at]), 's')}"
+            when = f"at {quantity_text(float(run.series['time_s'][at]), 's')}"
             peak = float(magnitude[at])
             rows.append(KeyNumber(f"Maximum seismic force{words}", quantity_text(peak, unit), when, key, peak))
     return rows
@@ -177,11 +177,11 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
         ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa", "peak_band_pore_pressure_Pa"),
         ("Maximum pore pressure ratio P/N", "band_max_pressure_ratio", "", "band_max_pressure_ratio"),
     ):
-        if column in run.history:
-            values = run.history[column]
+        if column in run.series:
+            values = run.series[column]
             if np.isfinite(values).any():
                 at = int(np.nanargmax(values))
-                peak, when = float(values[at]), f"at {quantity_text(float(run.history['time_s'][at]), 's')}"
+                peak, when = float(values[at]), f"at {quantity_text(float(run.series['time_s'][at]), 's')}"
                 rows.append(KeyNumber(words, quantity_text(peak, unit), when, key, peak))
             else:
                 rows.append(KeyNumber(words, "none", "no particles in the band", key))
@@ -195,7 +195,7 @@ def _water_numbers(run: Run) -> list[KeyNumber]:
         ("Water drained from the band", "column_drained_kg"),
         ("Water lost as steam", "column_steam_kg"),
     ):
-        if column in run.history:
-            unit, lost = "t/m of width" if run.per_metre else "t", float(run.history[column][-1])
+        if column in run.series:
+            unit, lost = "t/m of width" if run.per_metre else "t", float(run.series[column][-1])
             rows.append(KeyNumber(words, quantity_text(lost / 1e3, unit), "until the end", column, lost))
     return rows

@@ -94,8 +94,8 @@ def _front_numbers(run: Run) -> list[KeyNumber]:
     If run.json has the travel distance, which equals the runout distance, `_distances` returns it instead.
     """
     rows = []
-    if "runout_m" in run.history:
-        runout = run.history["runout_m"]
+    if "runout_m" in run.series:
+        runout = run.series["runout_m"]
         initial = f"; initial length {metres(runout[0])}" if np.isfinite(runout[0]) else ""
         remark = f"front at {run.last_state} minus initial rear{initial}"
         if run.facts.get("travel_distance_m") is None:
@@ -104,7 +104,7 @@ def _front_numbers(run: Run) -> list[KeyNumber]:
             rows.append(_along_path(words, runout[-1], where + remark, "runout_distance_m"))
         first = int(np.argmax(np.isfinite(runout)))  # 0 if all are unknown
         since = (
-            "the start" if first == 0 else f"{quantity_text(float(run.history['time_s'][first]), 's')}, the first known"
+            "the start" if first == 0 else f"{quantity_text(float(run.series['time_s'][first]), 's')}, the first known"
         )
         remark = f"front at {run.last_state} minus front at {since}"
         rows.append(_along_path("Front travel distance", runout[-1] - runout[first], remark, "front_travel_distance_m"))
@@ -142,9 +142,9 @@ def _map_peaks(run: Run) -> list[KeyNumber]:
 
 def peak_particle_speed(run: Run) -> tuple[float, int] | None:
     """Return the maximum speed [m/s] of any particle before rest, and its row of the history; None without one."""
-    if "max_velocity_m_s" not in run.history:
+    if "max_velocity_m_s" not in run.series:
         return None
-    speed = np.where(run.history["time_s"] <= run.rest_since, run.history["max_velocity_m_s"], np.nan)
+    speed = np.where(run.series["time_s"] <= run.rest_since, run.series["max_velocity_m_s"], np.nan)
     if not np.isfinite(speed).any():
         return None
     row = int(np.nanargmax(speed))
@@ -155,7 +155,7 @@ def _section_peaks(run: Run) -> list[KeyNumber]:
     rows = []
     if (fastest := peak_particle_speed(run)) is not None:
         speed, row = fastest
-        when = f"at {quantity_text(float(run.history['time_s'][row]), 's')}"
+        when = f"at {quantity_text(float(run.series['time_s'][row]), 's')}"
         rows.append(
             KeyNumber("Peak speed", quantity_text(speed, "m/s"), f"of any particle, {when}", "peak_speed_m_s", speed)
         )
@@ -197,12 +197,12 @@ def _arrivals(run: Run) -> list[KeyNumber]:
             remark = "time at which the last map cell of the affected area is reached"
             rows.append(KeyNumber("Latest arrival time", quantity_text(latest, "s"), remark, _ARRIVAL_KEY, latest))
         return rows + _probe_arrivals(run)
-    if "runout_m" not in run.history or not run.history["runout_m"][-1] > 0.0:
+    if "runout_m" not in run.series or not run.series["runout_m"][-1] > 0.0:
         return []
-    runout = run.history["runout_m"]
+    runout = run.series["runout_m"]
     at = int(np.argmax(runout >= ARRIVED * runout[-1]))
     remark = f"time at which the front attains {number_text(100.0 * ARRIVED)} % of its final runout distance"
-    time = float(run.history["time_s"][at])
+    time = float(run.series["time_s"][at])
     return [KeyNumber("Arrival time", quantity_text(time, "s"), remark, _ARRIVAL_KEY, time)]
 
 
@@ -218,7 +218,7 @@ def _probe_arrivals(run: Run) -> list[KeyNumber]:
 def arrivals(run: Run) -> list[Arrival]:
     """Return the arrival at each point probe."""
     found: list[Arrival] = []
-    probes = run.probes
+    probes = run.probe_series
     if probes is None:
         return found
     threshold = float(run.section("maps").get("arrival_thickness", 0.0))

@@ -60,16 +60,16 @@ def _fact(run: Run, name: str) -> float | None:
 
 def _in_section(run: Run) -> tuple[float | None, float | None]:
     """Return drop height and travel distance of a 2D run."""
-    if "runout_m" not in run.history or not np.isfinite(run.history["runout_m"][-1]):
+    if "runout_m" not in run.series or not np.isfinite(run.series["runout_m"][-1]):
         return None, None
-    runout = float(run.history["runout_m"][-1])
+    runout = float(run.series["runout_m"][-1])
     tilt = math.radians(run.gravity_tilt)
     up, onward = np.array([-math.sin(tilt), math.cos(tilt)]), np.array([math.cos(tilt), math.sin(tilt)])
     untilted = runout if tilt == 0.0 else None
     try:
-        if run.terrain is None or "front_position_m" not in run.history:
+        if run.terrain is None or "front_position_m" not in run.series:
             return None, untilted
-        x = float(run.history["front_position_m"][-1])
+        x = float(run.series["front_position_m"][-1])
         front, rear = (_on_ground(run, each) for each in (x, x - _direction(run) * runout))
         length = untilted if tilt == 0.0 else _finite(abs(float(onward @ (front - rear))))
         if not run.times.size or run.times[0] > 0.0:
@@ -82,7 +82,7 @@ def _in_section(run: Run) -> tuple[float | None, float | None]:
 
 def _direction(run: Run) -> float:
     """Return 1 for a run towards +x, -1 for one towards -x: the runout distance increases with the front."""
-    front, runout = run.history["front_position_m"], run.history["runout_m"]
+    front, runout = run.series["front_position_m"], run.series["runout_m"]
     return -1.0 if (front[-1] - front[0]) * (runout[-1] - runout[0]) < 0.0 else 1.0
 
 

@@ -70,7 +70,7 @@ def make_report(
     folder. The page lists figures without data or with damaged files; these are an error if `names` requests them.
     """
     output = output or run.folder
-    _ = run.history, run.facts, run.targets  # required by every page: errors precede the figures
+    _ = run.series, run.facts, run.targets  # required by every page: errors precede the figures
     report = Report(output / "report.html")
     if (output / "figures").is_symlink():
         raise ReportError(f"{output / 'figures'}: a link, not a folder. Remove the link.")

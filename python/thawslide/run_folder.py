@@ -22,6 +22,8 @@ from thawslide.text_files import finite_number, is_file, read_table
 from thawslide.time_reference import shifted_targets
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from thawslide.geopackage import Feature
     from thawslide.maps import Maps
 
@@ -115,19 +117,29 @@ class Run:
         """Return one table of the case file, empty if it does not exist."""
         return dict(self.case.get(name, {}))
 
+    @property
+    def history(self) -> pd.DataFrame:
+        """The history with the columns of history.csv; an incomplete last row is skipped with a warning."""
+        return self.series.to_pandas()
+
     @cached_property
-    def history(self) -> History:
-        """The history: columns of history.csv by name; an incomplete last row is skipped with a warning."""
+    def series(self) -> History:
+        """The same columns as arrays by name, without pandas."""
         return read_history(self.folder / "history.csv", self.warnings)
 
     @property
     def has_band_columns(self) -> bool:
         """Whether the run has band columns; figures of the band are then area-weighted means over the base."""
-        return "band_normal_pressure_Pa" in self.history
+        return "band_normal_pressure_Pa" in self.series
+
+    @property
+    def probes(self) -> pd.DataFrame | None:
+        """Thickness, speed and discharge at probes over time, None for a run without probes."""
+        return None if self.probe_series is None else self.probe_series.to_pandas()
 
     @cached_property
-    def probes(self) -> History | None:
-        """Thickness, speed and discharge at probes over time, None for a run without probes."""
+    def probe_series(self) -> History | None:
+        """The same columns as arrays by name."""
         path = self.folder / "probes.csv"
         if not is_file(path):
             return None
@@ -236,7 +248,7 @@ class Run:
         """The simulated time [s]."""
         stated = self.facts.get("simulated_time_s")
         is_outdated = self.ending in (Ending.RUNNING, Ending.KILLED, Ending.UNDETERMINED)  # run.json
-        return float(self.history["time_s"][-1] if stated is None or is_outdated else stated)
+        return float(self.series["time_s"][-1] if stated is None or is_outdated else stated)
 
     @property
     def is_moving_at_end(self) -> bool:

@@ -34,9 +34,9 @@ def _reference_of(targets: Sequence[Target]) -> Target | None:
 
 def time_of_speed(run: Run, speed: float) -> float:
     """Return the time [s] at which the mean velocity first attains a value [m/s], interpolated; nan for never."""
-    if "mean_velocity_m_s" not in run.history:
+    if "mean_velocity_m_s" not in run.series:
         return float("nan")
-    time, found = run.history["time_s"], run.history["mean_velocity_m_s"]
+    time, found = run.series["time_s"], run.series["mean_velocity_m_s"]
     reached = np.flatnonzero(found >= speed)
     if not reached.size:
         return float("nan")

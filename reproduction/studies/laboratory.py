@@ -248,8 +248,8 @@ def read_column(folder: Path, shape: str, aspect: float, across: int) -> Column:
     """Read the result of a run of sand."""
     run = Run(folder)
     made, released = (
-        run.history["numerical_J"] + run.history["mechanical_residual_J"],
-        run.history["potential_J"][0] - run.history["potential_J"][-1],
+        run.series["numerical_J"] + run.series["mechanical_residual_J"],
+        run.series["potential_J"][0] - run.series["potential_J"][-1],
     )
     shot = Snapshot(run.snapshot_files[-1])
     x, mass = shot.points[:, 0], shot["mass"]

@@ -201,7 +201,7 @@ def result(place: Place) -> Figure:
     figure = Figure(figsize=(7.1, 2.9), layout="constrained")
     axes = figure.subplots()
     for name, label, color, style in LINES:
-        history = Run(place.runs / name).history
+        history = Run(place.runs / name).series
         axes.plot(history["time_s"], history["mean_velocity_m_s"], style, color=color, label=label, linewidth=1.8)
     axes.set(xlabel="time (s)", ylabel="mean velocity (m/s)", xlim=(0, None), ylim=(0, None))
     axes.grid(color="#DDDDDD", linewidth=0.6)

@@ -105,7 +105,7 @@ def read_found(folder: Path) -> Found:
     run = Run(folder)
     first, last = (run.snapshot(place, fields=["mass"]) for place in (0, -1))
     centres = [np.average(each.points[:, :2], axis=0, weights=each["mass"]) for each in (first, last)]
-    history = run.history
+    history = run.series
     thickness = read_map(folder / "maps" / "final_thickness.tif")
     return Found(
         cell=float(run.section("grid")["cell"]),

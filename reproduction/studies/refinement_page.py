@@ -136,7 +136,7 @@ def spread_words(found: list[Found]) -> str:
 def friction_rows(folder: Path, terrain: Map) -> list[Interval]:
     """Return the intervals of a run in which it moves fast enough to evaluate friction."""
     run = Run(folder)
-    speed, time = run.history["mean_velocity_m_s"], run.history["time_s"]
+    speed, time = run.series["mean_velocity_m_s"], run.series["time_s"]
     found = intervals(run, terrain, math.tan(math.radians(ALR.friction_angle)), LENGTH)
     return [
         each

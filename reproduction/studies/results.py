@@ -90,7 +90,7 @@ def read_thawslide(folder: Path, terrain: Map, name: str = "thawslide", words: s
         thickness,
         speed,
         final,
-        float(run.history["left_mass_kg"][-1] / run.history["mass_kg"][0]),
+        float(run.series["left_mass_kg"][-1] / run.series["mass_kg"][0]),
         processor_time(folder / name),
     )
 

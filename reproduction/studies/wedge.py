@@ -88,7 +88,7 @@ def intervals(run: Run, terrain: Map, coefficient: float, length: float) -> list
         times.append(snapshot.time)
         found.append(rates(ground, snapshot.points, snapshot["velocity"], snapshot["mass"]))
     paths = cumulative(np.array(times), np.array(found))
-    history = run.history
+    history = run.series
     lost = {
         "ground": history["friction_work_J"] + history["contact_loss_J"],
         "inside": history["plastic_J"] + history["viscous_J"],

@@ -69,7 +69,7 @@ def test_a_run_in_a_folder_ends_after_a_fork(slope: Path, tmp_path: Path, parent
 
     def run() -> float:
         done = thawslide.run(case, tmp_path / "run", threads=2, progress=False)
-        return float(done.history.rows)
+        return float(len(done.history))
 
     assert in_child(run) == 2.0
 

@@ -24,7 +24,7 @@ def map_run(tmp_path_factory: pytest.TempPathFactory) -> Run:
 def test_a_2d_run_has_a_table_and_no_maps(slope: Path, tmp_path: Path) -> None:
     run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
     expected = pd.read_csv(run.folder / "history.csv").astype(float)
-    pd.testing.assert_frame_equal(run.history.to_pandas(), expected, check_exact=True)
+    pd.testing.assert_frame_equal(run.history, expected, check_exact=True)
     shot = run.snapshot(-1)
     assert shot.time == pytest.approx(1.0) and shot.points.shape == (len(shot["mass"]), 3)
     assert shot.unit("temperature") == "degC"

@@ -21,7 +21,7 @@ def test_a_run_has_the_files_of_the_command_line(slope: Path, tmp_path: Path, co
     assert sorted(path.name for path in (tmp_path / "python").rglob("*")) == names
     for name in ("history.csv", "terrain.csv"):
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "shell" / name).read_bytes()
-    assert run.history["time_s"][-1] == pytest.approx(1.0)
+    assert run.history["time_s"].iloc[-1] == pytest.approx(1.0)
 
 
 def test_a_failed_run_keeps_its_results(slope: Path, tmp_path: Path) -> None:
@@ -50,7 +50,7 @@ def test_control_c_stops_a_run_that_resume_continues(slope: Path, tmp_path: Path
     assert facts["status"] == "stopped" and 0.0 < facts["simulated_time_s"] < 9.0
     end = facts["simulated_time_s"] + 0.5
     run = thawslide.resume(tmp_path / "run", {"time.end": end}, threads=1, progress=False)
-    assert run.history["time_s"][-1] == pytest.approx(end, abs=0.0002)
+    assert run.history["time_s"].iloc[-1] == pytest.approx(end, abs=0.0002)
 
 
 class _Failing(thawslide._core.Observer):

@@ -83,12 +83,12 @@ def test_stresses_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
     stresses = titled(FIGURES["band"].plot(run), "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
-    load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
+    load, pore_pressure = run.series["band_normal_pressure_Pa"], run.series["band_pore_pressure_Pa"]
     for label, values in (
         ("normal pressure N", load),
         ("pore pressure P", pore_pressure),
         ("effective stress N − P", load - pore_pressure),
-        ("shear traction", run.history["band_shear_Pa"]),
+        ("shear traction", run.series["band_shear_Pa"]),
     ):
         np.testing.assert_allclose(line(stresses, label)[1] * 1e6, values)
     assert 'or on N alone for substrates with the law "coefficient"' in FIGURES["band"].caption_of(run)
@@ -129,23 +129,23 @@ def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
     figure = FIGURES["band"].plot(run)
     heat = titled(figure, "(b)")
-    np.testing.assert_allclose(line(heat, "mean")[1], run.history["band_temperature_C"])
-    np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.history["band_max_temperature_C"])
+    np.testing.assert_allclose(line(heat, "mean")[1], run.series["band_temperature_C"])
+    np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.series["band_max_temperature_C"])
     np.testing.assert_allclose(line(heat, "boiling temperature at mean N")[1], 187.243587897609)
     assert not any("boiling point" in text for axes in figure.axes for text in texts(axes))
-    np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.history["band_saturation"])
+    np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.series["band_saturation"])
     np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
-    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.history["band_max_pressure_ratio"])
+    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.series["band_max_pressure_ratio"])
 
 
 def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
     run = Run(columns_run)
     figure = FIGURES["energy"].plot(run)
     thermal = titled(figure, "(b)")
-    t = run.history["time_s"]
+    t = run.series["time_s"]
     assert not {found.get_label() for found in thermal.lines} & {"gained from the body", "heat in band columns"}
     warming = line(thermal, "warming and melting of columns")[1]
-    heat, joined = (run.history[name] - run.history[name][0] for name in ("column_heat_J", "column_intake_J"))
+    heat, joined = (run.series[name] - run.series[name][0] for name in ("column_heat_J", "column_intake_J"))
     np.testing.assert_allclose(warming, (heat - joined) / 1e12, atol=1e-9)
     np.testing.assert_allclose(line(thermal, "lost with steam")[1], 0.15 * t, atol=1e-9)
     columns = column_history()
@@ -163,7 +163,7 @@ def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
 def test_water_terms_have_their_panels(columns_run: Path) -> None:
     run = Run(columns_run)
     figure = FIGURES["water"].plot(run)
-    t = run.history["time_s"]
+    t = run.series["time_s"]
     content, losses, voids = (titled(figure, f"({letter})") for letter in "abc")
     labels = [axes.get_ylabel() for axes in (content, losses, voids)]
     assert labels == ["mass (million t)", "mass (thousand t)", "volume (thousand m³)"]

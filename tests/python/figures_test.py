@@ -197,11 +197,11 @@ def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None
     run = Run(make_run())
     figure = FIGURES["motion"].plot(run)
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
-    time, front = run.history["time_s"], run.history["front_position_m"]
+    time, front = run.series["time_s"], run.series["front_position_m"]
     for axes, label, expected in (
-        (speed, "mean (mass-weighted)", [time, run.history["mean_velocity_m_s"]]),
+        (speed, "mean (mass-weighted)", [time, run.series["mean_velocity_m_s"]]),
         (speed, "reported: seismic", [[4.0, 6.0], [9.0, 11.0]]),
-        (distance, "mean path length (mass-weighted)", [time, run.history["mean_displacement_m"]]),
+        (distance, "mean path length (mass-weighted)", [time, run.series["mean_displacement_m"]]),
         (distance, "front travel distance", [time, front - front[0]]),
         (distance, "reported mean displacement: model", [[10.0], [80.0]]),
         (distance, "reported runout distance: field", [[10.0], [160.0]]),
@@ -218,13 +218,13 @@ def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None
 def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
     folder = make_run()
     moving = titled(FIGURES["motion"].plot(Run(folder)), "(a) speed")
-    assert len(line(moving, "maximum")[0]) == len(Run(folder).history["time_s"])
+    assert len(line(moving, "maximum")[0]) == len(Run(folder).series["time_s"])
     update_facts(folder, at_rest=True, rest_since_s=6.0)
     run = Run(folder)
-    before = run.history["time_s"] <= 6.0
+    before = run.series["time_s"] <= 6.0
     assert 0 < before.sum() < len(before)
     maximum = line(titled(FIGURES["motion"].plot(run), "(a) speed"), "maximum, until rest")
-    np.testing.assert_array_equal(maximum, [run.history["time_s"][before], run.history["max_velocity_m_s"][before]])
+    np.testing.assert_array_equal(maximum, [run.series["time_s"][before], run.series["max_velocity_m_s"][before]])
 
 
 def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun) -> None:
@@ -256,10 +256,10 @@ def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> 
     run = Run(make_run())
     figure = FIGURES["force"].plot(run)
     size, parts = titled(figure, "(a)"), titled(figure, "(b)")
-    x, y = run.history["seismic_force_x_N"], run.history["seismic_force_y_N"]
+    x, y = run.series["seismic_force_x_N"], run.series["seismic_force_y_N"]
     np.testing.assert_allclose(line(size, "run")[1] * 1e9, np.hypot(x, y))
     np.testing.assert_array_equal(line(size, "reported maximum 280 GN: seismic")[1], [280.0, 280.0])
-    t = run.history["time_s"]
+    t = run.series["time_s"]
     passed = [band_passed(t, part, 2.0, 8.0) for part in (x, y)]
     np.testing.assert_allclose(line(size, "run, band-pass 2 to 8 s")[1] * 1e9, np.hypot(*passed))
     np.testing.assert_array_equal(line(size, "reported maximum 110 GN (2 to 8 s): waves")[1], [110.0, 110.0])
@@ -267,7 +267,7 @@ def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> 
     np.testing.assert_allclose(line(parts, "y (up)")[1] * 1e9, y)
     assert size.get_ylabel() == "force (GN)"
     (strain,) = titled(figure, "(c)").lines
-    np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
+    np.testing.assert_array_equal(strain.get_ydata(), run.series["mean_plastic_strain"])
     figure = FIGURES["force"].plot(Run(make_run(name="space", dimension=3)))
     assert [found.get_label() for found in titled(figure, "(b)").lines] == ["x (along)", "y (across)", "z (up)"]
 
@@ -291,7 +291,7 @@ def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
         ("(d)", "run", "band_friction_coefficient", 1.0, "friction coefficient (–)"),
     ):
         axes = titled(figure, start)
-        np.testing.assert_allclose(line(axes, label)[1] * divisor, run.history[column])
+        np.testing.assert_allclose(line(axes, label)[1] * divisor, run.series[column])
         assert axes.get_ylabel() == axis_label
     np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
     assert texts(titled(figure, "(a)"))[:2] == ["melting point", "boiling point"]
@@ -313,7 +313,7 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     run = Run(make_run())
     figure = FIGURES["energy"].plot(run)
     mechanical, thermal, residual = (titled(figure, f"({letter})") for letter in "abc")
-    t = run.history["time_s"]
+    t = run.series["time_s"]
     np.testing.assert_allclose(line(mechanical, "potential")[1], -t, atol=1e-12)
     np.testing.assert_allclose(line(mechanical, "kinetic")[1], 0.4 * t)
     np.testing.assert_allclose(line(thermal, "sensible heat")[1] * 1e12, 0.15e12 * t, atol=1.0)

@@ -95,10 +95,10 @@ def test_curves_of_equal_forces_coincide(folder: Path) -> None:
 def test_curves_are_the_filtered_history(folder: Path) -> None:
     run = Run(folder)
     figure = FIGURES["force_record"].plot(run)
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     for panel, axis in ((0, "y"), (1, "x")):
         curve_time, curve = line(figure.axes[panel], "run")
-        expected = filtered(time, run.history[f"seismic_force_{axis}_N"], curve_time, BAND)
+        expected = filtered(time, run.series[f"seismic_force_{axis}_N"], curve_time, BAND)
         np.testing.assert_allclose(1e9 * curve, expected, atol=1e-6 * np.abs(expected).max())
         assert curve_time[0] >= 0.0 > line(figure.axes[panel], "filter response before the run")[0].max()
 

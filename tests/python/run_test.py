@@ -12,7 +12,7 @@ from thawslide import NotInRunError, ReportError, Run
 
 
 def test_history_has_all_columns_and_nan(make_run: MakeRun) -> None:
-    history = Run(make_run()).history
+    history = Run(make_run()).series
     written = history_columns(101, 2)
     assert (list(history), history.rows) == (list(written), 101)
     for name, values in written.items():
@@ -47,7 +47,7 @@ def test_snapshots_are_read_by_index_and_by_nearest_time(make_run: MakeRun) -> N
     snapshot = run.snapshot(time=1e9)
     assert (snapshot.time, snapshot.step) == (10.0, 1000)
     assert (snapshot.points.shape, snapshot["stress"].shape) == ((80, 3), (80, 6))
-    assert snapshot.unit("temperature") == "C"
+    assert snapshot.unit("temperature") == "degC"
     np.testing.assert_allclose(np.linalg.norm(snapshot["velocity"], axis=1), 50.0)
 
 
@@ -59,7 +59,7 @@ def test_vertical_axis_depends_on_the_dimension(make_run: MakeRun) -> None:
 def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> None:
     with pytest.raises(kind, match=re.escape(text)):
         run = Run(folder)
-        _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
+        _ = run.case, run.series, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
 
 
 def test_other_folders_and_missing_targets_are_errors(make_run: MakeRun, tmp_path: Path) -> None:
@@ -85,14 +85,14 @@ def test_incomplete_last_row_is_ignored_with_a_warning(make_run: MakeRun) -> Non
     folder = make_run(rows=11)
     (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-20])
     run = Run(folder)
-    assert (run.history.rows, run.history["time_s"][-1]) == (10, 9.0)
+    assert (run.series.rows, run.series["time_s"][-1]) == (10, 9.0)
     assert run.warnings == [f"{folder / 'history.csv'}: the last row is incomplete and is ignored"]
 
 
 def test_messages_on_missing_names_have_the_nearest_one(make_run: MakeRun) -> None:
     run = Run(make_run())
     with pytest.raises(NotInRunError, match=r"no column runout \(nearest: runout_m\)"):
-        run.history["runout"]
+        run.series["runout"]
     with pytest.raises(NotInRunError, match=r"no field speed \(found: body, displacement, "):
         run.snapshot(0)["speed"]
 

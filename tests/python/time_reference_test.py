@@ -35,10 +35,10 @@ def test_curves_have_the_times_of_the_run(folder: Path, name: str) -> None:
     run = Run(folder)
     figure = FIGURES[name].plot(run)
     assert labels_of_time(figure) == {TIME_LABEL}
-    curves = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == run.history.rows]
+    curves = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == run.series.rows]
     assert curves
     for line in curves:
-        np.testing.assert_array_equal(line.get_xdata(), run.history["time_s"])
+        np.testing.assert_array_equal(line.get_xdata(), run.series["time_s"])
 
 
 def test_reported_values_are_shifted_to_the_times_of_the_run(folder: Path) -> None:

@@ -116,7 +116,7 @@ def test_normal_pressure_is_next_to_pore_pressure(make_run: MakeRun) -> None:
     pressure = next(axes for axes in FIGURES["band"].plot(run).axes if axes.get_title(loc="left").startswith("(b)"))
     lines = {str(line.get_label()): line for line in pressure.lines}
     assert pressure.get_ylabel() == "pore pressure (MPa)"
-    np.testing.assert_allclose(1e6 * lines["pore pressure P"].get_ydata(), run.history["band_pore_pressure_Pa"])
+    np.testing.assert_allclose(1e6 * lines["pore pressure P"].get_ydata(), run.series["band_pore_pressure_Pa"])
     time, load = load_on_band(run)
     np.testing.assert_array_equal(time, run.times)
     np.testing.assert_allclose(1e6 * lines["static normal pressure N"].get_ydata(), load)
@@ -129,7 +129,7 @@ def test_normal_pressure_is_next_to_pore_pressure(make_run: MakeRun) -> None:
 
 def test_figure_20_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
     run = Run(make_run())
-    columns = run.history
+    columns = run.series
     figure = figure_20({"lamplugh": run})
     (words,) = (text.get_text().replace("\n", " ") for text in figure.findobj(Text) if text.get_gid() == "warning")
     hottest = float(np.nanmax(columns["band_temperature_C"]))

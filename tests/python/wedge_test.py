@@ -85,7 +85,7 @@ class FakeRun:
         time = np.arange(0.0, 4.01, 0.5)
         self.speed = 3.0  # m/s, horizontal
         lost = 0.3 * 7.0 * 9.81 * self.speed * time
-        self.history = {
+        self.series = {
             "time_s": time, "friction_work_J": 0.9 * lost, "contact_loss_J": 0.1 * lost, "plastic_J": 0.2 * lost,
             "viscous_J": 0.05 * lost,
         }  # fmt: skip

@@ -127,7 +127,7 @@ def test_the_command_runs_three_cells_and_reports_errors(tmp_path: Path, capfd: 
         assert case["grid"]["cell"] == 2.5 * factor
         assert case["grid"]["max"] == [90.0, 30.0], "a whole number of 10 m"
     error = found["results"]["displacement_m"]
-    moved = Run(output / "h").history["mean_displacement_m"][-1]
+    moved = Run(output / "h").series["mean_displacement_m"][-1]
     assert error["value"] == moved > 0.0
     assert (output / "pair.md").read_text().startswith("# Errors of column of 20 m")
 

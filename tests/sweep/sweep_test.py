@@ -33,8 +33,8 @@ def test_a_sweep_returns_the_numbers_of_separate_runs(slope: Path, tmp_path: Pat
     assert list(table["status"]) == ["done"] * 4 and list(table["starts"]) == [1] * 4
     run = thawslide.run(Case(slope, {"band.thickness": 0.1, "basal.friction_angle": 20.0}), tmp_path / "run")
     member = table[(table["band.thickness"] == 0.1) & (table["basal.friction_angle"] == 20.0)].iloc[0]
-    assert member["last"] == run.history["mean_velocity_m_s"][-1]
-    assert member["peak_mean_velocity_m_s"] == run.history["mean_velocity_m_s"].max()
+    assert member["last"] == run.series["mean_velocity_m_s"][-1]
+    assert member["peak_mean_velocity_m_s"] == run.series["mean_velocity_m_s"].max()
     pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "sweep" / "members.parquet"), table)
     folder = SweepFolder(tmp_path / "sweep").run_folder(0)
     assert sorted(path.name for path in folder.iterdir()) == ["case.toml", "history.csv", "run.json"]
@@ -103,7 +103,7 @@ def test_a_killed_sweep_continues_from_checkpoints(slope: Path, tmp_path: Path) 
         run = Run(SweepFolder(sweep).run_folder(number))
         whole = thawslide.run(Case(case, {"basal.friction_angle": angle}), tmp_path / f"whole{number}", progress=False)
         assert len(run.facts["parts"]) == 2
-        assert (run.history["mean_velocity_m_s"] == whole.history["mean_velocity_m_s"]).all()
+        assert (run.series["mean_velocity_m_s"] == whole.series["mean_velocity_m_s"]).all()
 
 
 def test_a_member_continues_after_the_death_of_its_worker(slope: Path, tmp_path: Path) -> None:

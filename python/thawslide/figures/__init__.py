@@ -119,7 +119,7 @@ FIGURES: dict[str, FigureKind] = {
         "Probes",
         "Flow thickness and speed at points; flow area and discharge through cross sections.",
         probes,
-        lambda run: run.probes is not None,
+        lambda run: run.probe_series is not None,
     ),
     "motion": FigureKind(
         "Speed and displacement",
@@ -171,7 +171,7 @@ FIGURES: dict[str, FigureKind] = {
         "Mass entrained from the erodible bed, work needed to accelerate it, and entrained depth along x where "
         "particles joined.",
         entrainment,
-        lambda run: "entrained_mass_kg" in run.history,
+        lambda run: "entrained_mass_kg" in run.series,
     ),
     "water": FigureKind(
         "Water budget of the band",

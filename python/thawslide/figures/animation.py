@@ -118,8 +118,8 @@ class _Image:
         self.traces = [trace for trace, _ in panels]
         self.time_title = page.figure.axes[0].set_title("", loc="left", size=10)
         course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
-        time_line(course, run.history["time_s"], run.history["mean_velocity_m_s"], color=BLUE)
-        time_axis(course, run.history["time_s"], TIME_LABEL)
+        time_line(course, run.series["time_s"], run.series["mean_velocity_m_s"], color=BLUE)
+        time_axis(course, run.series["time_s"], TIME_LABEL)
         course.set_ylim(bottom=0.0)
         course.set_title("mean velocity (m/s)", loc="left", size=8, pad=3)
         self.marker = course.axvline(0.0, color=RED, linewidth=1.2)

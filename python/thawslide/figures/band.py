@@ -56,7 +56,7 @@ def band(run: Run) -> Figure:
 
 
 def _plot_particles(run: Run) -> Figure:
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
     title_figure(figure, run.titled("shear band"))
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
@@ -64,10 +64,10 @@ def _plot_particles(run: Run) -> Figure:
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
         time_axis(axes, time, TIME_LABEL if axes in panels[2:] else "")
-        if column not in run.history:
+        if column not in run.series:
             explain_empty(axes, f"no column {column} in history.csv")
             continue
-        values = run.history[column]
+        values = run.series[column]
         if not np.isfinite(values).any():
             explain_empty(axes, "no contact" if "friction" in column else "no particles in the band")
             continue
@@ -87,8 +87,8 @@ def _plot_particles(run: Run) -> Figure:
                 loc="best"
             )
         _finish(axes, column, values / divisor)
-        if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.history:
-            warn(axes, too_hot(run, values, run.history["band_pore_pressure_Pa"]))
+        if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.series:
+            warn(axes, too_hot(run, values, run.series["band_pore_pressure_Pa"]))
     title_panels(panels, [words for _, words, *_ in _PANELS])
     _note_targets(figure, notes)
     return figure
@@ -119,9 +119,9 @@ def _plot_columns(run: Run) -> Figure:
     _plot_mean(friction, run, "band_friction_coefficient", "friction coefficient (–)", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
-    warn(ratio, too_much_pressure(run.history["band_max_pressure_ratio"]))
+    warn(ratio, too_much_pressure(run.series["band_max_pressure_ratio"]))
     for axes in panels:
-        time_axis(axes, run.history["time_s"], TIME_LABEL if axes in panels[4:] else "")
+        time_axis(axes, run.series["time_s"], TIME_LABEL if axes in panels[4:] else "")
     title_panels(
         panels,
         (
@@ -142,11 +142,11 @@ def _plot_mean(
 ) -> list[str]:
     """Plot one column of the history, or state why it is empty; return notes on reported values."""
     axes.set_ylabel(words)
-    values = run.history[column]
+    values = run.series[column]
     if not np.isfinite(values).any():
         explain_empty(axes, "no contact")
         return []
-    time_line(axes, run.history["time_s"], values, color=colour, label="run", zorder=_ABOVE_AXIS)
+    time_line(axes, run.series["time_s"], values, color=colour, label="run", zorder=_ABOVE_AXIS)
     notes = plot_targets(axes, run, quantities, 1.0, colour)
     if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(loc="best")
@@ -161,18 +161,18 @@ def _note_targets(figure: Figure, notes: list[str]) -> None:
 
 def _plot_stresses(axes: Axes, run: Run) -> list[str]:
     """Plot N, P, the effective stress and the shear traction; return notes on reported values."""
-    load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
+    load, pore_pressure = run.series["band_normal_pressure_Pa"], run.series["band_pore_pressure_Pa"]
     lines = (
         (load, "normal pressure N", {"color": BLACK, "linewidth": 3.0}),
         (pore_pressure, "pore pressure P", {"color": BLUE}),
         (load - pore_pressure, "effective stress N − P", {"color": GREEN, "linestyle": (0.0, (3.0, 1.5))}),
-        (run.history["band_shear_Pa"], "shear traction", {"color": RED}),
+        (run.series["band_shear_Pa"], "shear traction", {"color": RED}),
     )
     divisor, unit = prefixed(np.concatenate([values for values, *_ in lines]), "Pa")
     axes.set_ylabel(f"stress ({unit})")
     # N is wide and the effective stress dashed: both are visible without pore pressure.
     for values, words, style in lines:
-        time_line(axes, run.history["time_s"], values / divisor, label=words, zorder=_ABOVE_AXIS, **style)
+        time_line(axes, run.series["time_s"], values / divisor, label=words, zorder=_ABOVE_AXIS, **style)
     notes = plot_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
     legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
@@ -183,17 +183,17 @@ def _plot_stresses(axes: Axes, run: Run) -> list[str]:
 
 def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
     """Plot mean, maximum and boiling temperature; return notes on reported values."""
-    time = run.history["time_s"]
-    boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
+    time = run.series["time_s"]
+    boiling = boiling_temperature(run.series["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
-    time_line(axes, time, run.history["band_max_temperature_C"], color=PURPLE, label="maximum of all columns")
-    time_line(axes, time, run.history["band_temperature_C"], color=RED, label="mean")
+    time_line(axes, time, run.series["band_max_temperature_C"], color=PURPLE, label="maximum of all columns")
+    time_line(axes, time, run.series["band_temperature_C"], color=RED, label="mean")
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="boiling temperature at mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     notes = plot_targets(axes, run, ("band_temperature",), 1.0, RED)
     legend = axes.legend(loc="upper right")
     space = _LEGEND_EDGE + _LEGEND_ROW * len(legend.get_texts())
-    words = too_hot(run, run.history["band_max_temperature_C"], run.history["band_pore_pressure_Pa"])
+    words = too_hot(run, run.series["band_max_temperature_C"], run.series["band_pore_pressure_Pa"])
     if words:
         warn(axes, words, below=space)
     else:

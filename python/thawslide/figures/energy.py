@@ -68,29 +68,29 @@ RESIDUALS = {"mechanical_residual_J": (MECHANICAL, BLUE), "thermal_residual_J": 
 
 def term_changes(run: Run, terms: dict[str, tuple[str, str]]) -> dict[str, Numbers]:
     """Return each term [J, or J per metre of width] minus its first value, if the history has it."""
-    found = {name: run.history[name] for name in terms if name in run.history}
+    found = {name: run.series[name] for name in terms if name in run.series}
     parts = ("column_heat_J", "column_intake_J", "column_left_J")
-    if _WARMING in terms and all(name in run.history for name in parts):
-        heat, joined, left = (run.history[name] for name in parts)
+    if _WARMING in terms and all(name in run.series for name in parts):
+        heat, joined, left = (run.series[name] for name in parts)
         found[_WARMING] = heat - joined + left
     return {name: found[name] - found[name][0] for name in terms if name in found}
 
 
 def relative_residual(run: Run, column: str) -> Numbers | None:
     """Return |residual| over the maximum change of any term of its budget, or None if nothing changes."""
-    if column not in run.history:
+    if column not in run.series:
         return None
     changes = term_changes(run, RESIDUALS[column][0])
     largest = max((float(np.nanmax(np.abs(values))) for values in changes.values()), default=0.0)
-    return np.abs(run.history[column]) / largest if largest > 0.0 else None
+    return np.abs(run.series[column]) / largest if largest > 0.0 else None
 
 
 @styled
 def energy(run: Run) -> Figure:
     """Plot changes of (a) mechanical and (b) thermal terms since the start, (c) residuals on a logarithmic axis."""
-    if not any(name in run.history for name in (*MECHANICAL, *THERMAL)):
+    if not any(name in run.series for name in (*MECHANICAL, *THERMAL)):
         raise NotInRunError("history.csv: no columns of the energy budget.")
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
     title_figure(figure, run.titled("energy budget"))
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
@@ -117,7 +117,7 @@ def _plot_terms(axes: Axes, run: Run, terms: dict[str, tuple[str, str]]) -> list
         for name, values in changing.items():
             words, colour = terms[name]
             dashes = "--" if name == _WARMING else "-"  # often equal to friction heat
-            time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words, linestyle=dashes)
+            time_line(axes, run.series["time_s"], values / divisor, color=colour, label=words, linestyle=dashes)
         axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
@@ -133,7 +133,7 @@ def _plot_residuals(axes: Axes, run: Run) -> None:
         if values is None or not np.any(values > 0.0):
             continue
         shown = np.where(values > 0.0, values, np.nan)
-        time_line(axes, run.history["time_s"], shown, color=colour, label=column.split("_")[0])
+        time_line(axes, run.series["time_s"], shown, color=colour, label=column.split("_")[0])
         has_values = True
     if has_values:
         axes.set_yscale("log")

@@ -39,7 +39,7 @@ def entrained_depth(run: Run) -> tuple[Numbers, Numbers]:
     shot = run.snapshot(len(run.times) - 1)
     of_bed = np.asarray(shot["body"]) == len(run.section("body"))
     joined_at = shot.points[of_bed, 0] - np.asarray(shot["displacement"])[of_bed, 0]
-    mass, entrained = run.history["entrained_mass_kg"][-1], run.history["entrained_volume_m3"][-1]
+    mass, entrained = run.series["entrained_mass_kg"][-1], run.series["entrained_volume_m3"][-1]
     volume = np.asarray(shot["mass"])[of_bed] * (entrained / mass if mass > 0.0 else 0.0)
     across = 1.0 if run.dimension == 2 else float(run.section("grid")["max"][1]) - float(run.section("grid")["min"][1])
     return edges, np.histogram(joined_at, edges, weights=volume)[0] / (wide * across)
@@ -48,24 +48,24 @@ def entrained_depth(run: Run) -> tuple[Numbers, Numbers]:
 @styled
 def entrainment(run: Run) -> Figure:
     """Plot (a) entrained and loose mass, (b) work and heat of entrainment, (c) entrained depth along x."""
-    if "entrained_mass_kg" not in run.history:
+    if "entrained_mass_kg" not in run.series:
         raise NotInRunError("history.csv: no entrained mass (found no [bed] in the case).")
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
     title_figure(figure, run.titled("entrained bed material"))
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
-    divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)
+    divisor, unit = scaled(float(np.nanmax(run.series["mass_kg"])), MASSES)
     for name, words, colour in (
         ("mass_kg", "sliding mass", BLACK),
         ("entrained_mass_kg", "entrained", BLUE),
         ("loose_mass_kg", "entrained, not yet joined", ORANGE),
     ):
-        time_line(mass, time, run.history[name] / divisor, color=colour, label=words)
+        time_line(mass, time, run.series[name] / divisor, color=colour, label=words)
     mass.set_ylabel(f"mass ({unit}{per})")
-    divisor, unit = prefixed([float(np.nanmax(run.history["entrained_work_J"]))], "J")
-    time_line(work, time, run.history["entrained_work_J"] / divisor, color=RED, label="work of entrainment")
-    time_line(work, time, run.history["entrained_heat_J"] / divisor, color=GREEN, label="heat in joined particles")
+    divisor, unit = prefixed([float(np.nanmax(run.series["entrained_work_J"]))], "J")
+    time_line(work, time, run.series["entrained_work_J"] / divisor, color=RED, label="work of entrainment")
+    time_line(work, time, run.series["entrained_heat_J"] / divisor, color=GREEN, label="heat in joined particles")
     work.set_ylabel(f"energy ({unit}{per})")
     for axes in (mass, work):
         time_axis(axes, time, TIME_LABEL if axes is work else "")

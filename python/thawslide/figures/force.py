@@ -45,7 +45,7 @@ def reported_bands(run: Run) -> list[Band]:
 
 def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
     """Return the components by axis and the magnitude [N, or N per metre of width], each of shape (rows,)."""
-    parts = {axis: run.history[name] for axis in "xyz" if (name := f"seismic_force_{axis}_N") in run.history}
+    parts = {axis: run.series[name] for axis in "xyz" if (name := f"seismic_force_{axis}_N") in run.series}
     if not parts:
         raise NotInRunError("history.csv has no column seismic_force_x_N")
     return parts, np.sqrt(sum(np.square(values) for values in parts.values()))
@@ -54,7 +54,7 @@ def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
 def force_in_band(run: Run, band: Band) -> Numbers:
     """Return the magnitude [N, or N per metre of width] of the band-passed force, shape (rows,)."""
     parts, _ = seismic_force(run)
-    passed = (band_passed(run.history["time_s"], part, band.shortest, band.longest) for part in parts.values())
+    passed = (band_passed(run.series["time_s"], part, band.shortest, band.longest) for part in parts.values())
     return np.asarray(np.sqrt(sum(np.square(part) for part in passed)))
 
 
@@ -73,7 +73,7 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
 @styled
 def force(run: Run) -> Figure:
     """Plot the force on the terrain minus the static weight, (a) magnitude, (b) components; (c) plastic strain."""
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     parts, magnitude = seismic_force(run)
     reported = reported_forces(run)
     comparable = [] if run.per_metre else reported
@@ -113,7 +113,7 @@ def force(run: Run) -> Figure:
     size.legend(loc="upper left", bbox_to_anchor=(0.0, -0.03))
     components.legend(loc="upper left", bbox_to_anchor=(0.0, -0.03), ncols=3)
 
-    time_line(strain, time, run.history["mean_plastic_strain"], color=GREEN)
+    time_line(strain, time, run.series["mean_plastic_strain"], color=GREEN)
     strain.set_ylabel("mean plastic strain (–)")
     strain.set_ylim(bottom=0.0)
     for axes in panels:

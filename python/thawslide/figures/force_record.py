@@ -81,7 +81,7 @@ def compared(run: Run, other: ForceRecord | None = None) -> Comparison:
     record_curves = Curves(of_record, up, projected(north, east, azimuth), reversal(of_record, up))
 
     # The first filter covers the run and gives the shift of times; the second covers the time of the record.
-    start = float(run.history["time_s"][0])
+    start = float(run.series["time_s"][0])
     preliminary = _curves(run, record, azimuth, start)
     is_aligned = preliminary.reversal is not None and record_curves.reversal is not None
     shift = (
@@ -105,11 +105,11 @@ def _curves(run: Run, record: ForceRecord, azimuth: float, start: float) -> Curv
     """Return the band-passed force of the run from a time [s], which may precede its start, to its end."""
     axes = "xyz"[: run.dimension]
     needed = [f"seismic_force_{axis}_N" for axis in axes] + (["front_position_m"] if run.dimension == 2 else [])
-    absent = [name for name in needed if name not in run.history]
+    absent = [name for name in needed if name not in run.series]
     if absent:
         raise NotInRunError(f"history.csv: no column {absent[0]}.")
     parts, _ = seismic_force(run)
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     at = _times(start, float(time[-1]), record.band)
     passed = {axis: filtered(time, values, at, record.band) for axis, values in parts.items()}
     up = passed["xyz"[run.vertical]]
@@ -119,7 +119,7 @@ def _curves(run: Run, record: ForceRecord, azimuth: float, start: float) -> Curv
 
 def _direction(run: Run) -> float:
     """Return the sign of the direction of motion along x in a section."""
-    front = run.history["front_position_m"]
+    front = run.series["front_position_m"]
     return -1.0 if front[-1] < front[0] else 1.0
 
 
@@ -211,7 +211,7 @@ def force_record(run: Run) -> Figure:
     found = compared(run)
     record = run.force_record
     assert record is not None
-    start = float(run.history["time_s"][0])
+    start = float(run.series["time_s"][0])
     both = [found.run.up, found.run.along, found.record.up, found.record.along]
     divisor, unit = prefixed(np.concatenate(both), "N")
     alignment = f"time shifted by {_signed(found.shift)} s" if found.is_aligned else "times not aligned"

@@ -20,8 +20,8 @@ def moments(run: Run) -> list[float]:
 
     The times are evenly spaced if it is zero.
     """
-    if "mean_displacement_m" in run.history:
-        displacement, time = run.history["mean_displacement_m"], run.history["time_s"]
+    if "mean_displacement_m" in run.series:
+        displacement, time = run.series["mean_displacement_m"], run.series["time_s"]
         if np.isfinite(displacement[-1]) and displacement[-1] > 0.0:
             return [float(time[int(np.argmax(displacement >= fraction * displacement[-1]))]) for fraction in FRACTIONS]
     return [float(time) for time in np.linspace(run.times[0], run.times[-1], len(FRACTIONS))]
@@ -47,8 +47,8 @@ def chosen_snapshots(run: Run, fields: Collection[str] | None = None, most: int 
 
 def _time_of_peak(run: Run) -> float:
     """Return the time [s] of the maximum mean velocity, 0 without one."""
-    speed = run.history["mean_velocity_m_s"] if "mean_velocity_m_s" in run.history else np.zeros(0)
-    return float(run.history["time_s"][int(np.nanargmax(speed))]) if np.isfinite(speed).any() else 0.0
+    speed = run.series["mean_velocity_m_s"] if "mean_velocity_m_s" in run.series else np.zeros(0)
+    return float(run.series["time_s"][int(np.nanargmax(speed))]) if np.isfinite(speed).any() else 0.0
 
 
 def shown_snapshot(run: Run, index: int, fields: Collection[str] | None = None) -> Snapshot:

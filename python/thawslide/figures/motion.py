@@ -36,7 +36,7 @@ def plot_targets(
 
     Return a note on values outside the time of the run, if there are any.
     """
-    begin, end = (float(run.history["time_s"][row]) for row in (0, -1))
+    begin, end = (float(run.series["time_s"][row]) for row in (0, -1))
     asked = [target for target in run.targets if target.quantity in quantities]
     found = [target for target in asked if begin <= target.time <= end and has_time_reference(run)]
     groups = list(dict.fromkeys((target.adjective, target.source) for target in found))
@@ -81,8 +81,8 @@ def motion(run: Run) -> Figure:
 
     Particles at rest vibrate without net motion. The maximum speed is therefore plotted until rest only.
     """
-    history = run.history
-    time = run.history["time_s"]
+    history = run.series
+    time = run.series["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
     title_figure(figure, run.titled("motion"))
     speed, distance = figure.subplots(1, 2)

@@ -52,7 +52,7 @@ QUANTITIES = (
 @styled
 def probes(run: Run) -> Figure:
     """Plot a panel for each quantity, with a line for each probe."""
-    columns = run.probes
+    columns = run.probe_series
     if columns is None:
         raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file. Specify [probe.NAME] in the case.")
     time = columns["time_s"]

@@ -52,14 +52,14 @@ def run_histories(runs: Mapping[str, Run]) -> Figure:
         axes.remove()
     for axes, column in zip(panels, columns, strict=False):
         words, unit = _PANELS[column]
-        found = [run.history[column] for run in runs.values() if column in run.history]
+        found = [run.series[column] for run in runs.values() if column in run.series]
         divisor, unit = prefixed(np.concatenate(found), unit) if unit == "Pa" else (1.0, unit)
         for number, (name, run) in enumerate(runs.items()):
-            if column in run.history:
+            if column in run.series:
                 time_line(
                     axes,
-                    run.history["time_s"],
-                    run.history[column] / divisor,
+                    run.series["time_s"],
+                    run.series[column] / divisor,
                     color=_COLOURS[number % len(_COLOURS)],
                     linestyle=_DASHES[number % len(_DASHES)],
                     label=name,
@@ -74,4 +74,4 @@ def run_histories(runs: Mapping[str, Run]) -> Figure:
 
 
 def _has_values(run: Run, column: str) -> bool:
-    return column in run.history and bool(np.isfinite(run.history[column]).any())
+    return column in run.series and bool(np.isfinite(run.series[column]).any())

@@ -66,9 +66,9 @@ def draw_section_extent(area: Area, run: Run, say: Messages) -> None:
 
 def draw_section_arrival(area: Area, run: Run, say: Messages) -> None:
     """Draw the time at which the front first attains each distance."""
-    if "front_position_m" not in run.history or not np.isfinite(run.history["front_position_m"]).any():
+    if "front_position_m" not in run.series or not np.isfinite(run.series["front_position_m"]).any():
         raise NotInRunError(f"{run.folder}: no position of the front.")
-    front, time = run.history["front_position_m"], run.history["time_s"]
+    front, time = run.series["front_position_m"], run.series["time_s"]
     known = np.isfinite(front)
     forward = 1.0 if front[known][-1] >= front[known][0] else -1.0
     inside, height = area.width - _LEFT - _RIGHT, area.height - _FOOT - 0.05

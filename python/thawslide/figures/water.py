@@ -38,8 +38,8 @@ RESIDUAL = "column_water_residual_kg"
 
 def relative_water_residual(run: Run) -> Numbers | None:
     """Return |residual| over the maximum of any term, or None if all are zero."""
-    largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in CONTENT | LOSSES)
-    return np.abs(run.history[RESIDUAL]) / largest if largest > 0.0 else None
+    largest = max(float(np.nanmax(np.abs(run.series[name]))) for name in CONTENT | LOSSES)
+    return np.abs(run.series[RESIDUAL]) / largest if largest > 0.0 else None
 
 
 def scaled(largest: float, steps: tuple[tuple[float, str], ...]) -> tuple[float, str]:
@@ -55,12 +55,12 @@ def _plot_terms(
     axes: Axes, run: Run, terms: dict[str, tuple[str, str]], quantity: str, steps: tuple[tuple[float, str], ...]
 ) -> None:
     """Plot terms over time in a unit that suits the largest of them."""
-    largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in terms)
+    largest = max(float(np.nanmax(np.abs(run.series[name]))) for name in terms)
     divisor, unit = scaled(largest, steps)
     for number, (name, (words, colour)) in enumerate(terms.items()):
         # Later lines are dashed, because they can coincide with earlier ones.
         style = {"color": colour, "linestyle": (0, (4, 2)) if number and terms is CONTENT else "-", "label": words}
-        time_line(axes, run.history["time_s"], run.history[name] / divisor, **style)
+        time_line(axes, run.series["time_s"], run.series[name] / divisor, **style)
     axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
     axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -71,7 +71,7 @@ def water(run: Run) -> Figure:
     """Plot (a) content and gain of columns, (b) losses, (c) openings and gas in pores, (d) the residual."""
     if not run.has_band_columns:
         raise NotInRunError("history.csv: no water budget (found no band columns).")
-    time = run.history["time_s"]
+    time = run.series["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
     title_figure(figure, run.titled("water budget of the band"))
     panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))

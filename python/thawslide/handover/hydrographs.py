@@ -34,7 +34,7 @@ class Hydrograph:
 
 def hydrographs(run: Run) -> list[Hydrograph]:
     """Return the hydrograph of each line among the probes of a run; ReportError without any."""
-    table = run.probes
+    table = run.probe_series
     names = [] if table is None else [column for column in table if column.endswith(_DISCHARGE)]
     if table is None or not names:
         raise ReportError(

@@ -55,7 +55,7 @@ def _results(run: Run) -> dict[str, float]:
     length = mobility_of(run).length
     found = {
         "travel_distance_m": math.nan if length is None else float(length),
-        "displacement_m": float(run.history["mean_displacement_m"][-1]),
+        "displacement_m": float(run.series["mean_displacement_m"][-1]),
     }
     for name in ("deposit_area_m2", "inundated_area_m2"):
         if run.dimension == 3 and isinstance(run.facts.get(name), int | float):

@@ -133,5 +133,5 @@ def _run(folder: Path) -> Forecast:
     if not run.is_complete:
         raise ReportError(f"{folder}: the run is not complete. Continue it: thawslide resume {folder}")
     columns = {name: np.array([value]) for name, value in numbers_of_run(run, ()).items()}
-    columns = _of_series([series_of(run.history)]) | columns
+    columns = _of_series([series_of(run.series)]) | columns
     return Forecast(folder, False, [0], np.ones(1), columns, [folder])

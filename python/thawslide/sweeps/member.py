@@ -133,7 +133,7 @@ def _evaluated(task: Task, folder: SweepFolder, run_folder: Path, report: Callab
         _complete_run(case, run_folder, MemberObserver(report))
         run = Run(run_folder, skip_damaged=True)
         numbers = numbers_of_run(run, expressions)
-        series = series_of(run.history)
+        series = series_of(run.series)
     with atomic_file(folder.series_file(task.number)) as temporary:
         np.savez(temporary, **{name: values.astype(np.float32) for name, values in series.items()})  # type: ignore[arg-type]
     finite = {name: value if math.isfinite(value) else None for name, value in numbers.items()}

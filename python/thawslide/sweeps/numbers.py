@@ -40,7 +40,7 @@ _FACTS = (
 
 def numbers_of_run(run: Run, expressions: Sequence[Expression]) -> dict[str, float]:
     """Return the key numbers of a run; nan if not available."""
-    history, mobility = run.history, mobility_of(run)
+    history, mobility = run.series, mobility_of(run)
     numbers: dict[str, float | None] = {
         "simulated_time_s": float(history["time_s"][-1]),
         "release_volume_m3": mobility.volume,
@@ -116,14 +116,14 @@ def _peak(values: Numbers) -> float | None:
 
 def _probe_numbers(run: Run) -> dict[str, float | None]:
     """Return maxima at probes, and the volume that passed each cross section."""
-    if run.probes is None:
+    if run.probe_series is None:
         return {}
     numbers: dict[str, float | None] = {}
-    for column, values in run.probes.items():
+    for column, values in run.probe_series.items():
         if column.endswith(("_thickness_m", "_speed_m_s")):
             numbers[f"probe_{column}"] = _peak(values)
         elif column.endswith("_discharge_m3_s"):
             name = column.removesuffix("_discharge_m3_s")
-            passed = np.trapezoid(np.nan_to_num(values), run.probes["time_s"])
+            passed = np.trapezoid(np.nan_to_num(values), run.probe_series["time_s"])
             numbers[f"probe_{name}_passed_volume_m3"] = float(passed)
     return numbers
