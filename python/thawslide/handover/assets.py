@@ -1,4 +1,4 @@
-"""Assets in the way of a slide: largest pressure, thickness and speed at each, with the times of arrival and peak.
+"""Assets in the way of a slide: maximum pressure, thickness and speed at each, with the times of arrival and peak.
 
 An asset is a polygon (a building, a section of a road) or a point (a pylon). Its values are the largest of all map
 cells that it touches.

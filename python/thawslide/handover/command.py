@@ -96,7 +96,7 @@ def assets(arguments: Sequence[str] | None = None) -> int:
     """Run `thawslide assets`; return the exit code, 2 for an error of the user."""
     parser = argparse.ArgumentParser(
         prog="thawslide assets",
-        description="List the largest pressure, thickness and speed at assets, with the times of arrival and peak.",
+        description="List the maximum pressure, thickness and speed at assets, with the times of arrival and peak.",
     )
     _add_run(parser)
     parser.add_argument(

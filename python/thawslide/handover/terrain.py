@@ -78,6 +78,6 @@ def _require_overlap(dem: Path, x: Numbers, y: Numbers, box: tuple[float, float,
     if x[-1] < west or x[0] > east or y[-1] < south or y[0] > north:
         raise ReportError(
             f"--dem {dem}: does not overlap the maps of the run (found x = {x[0]:.10g} to {x[-1]:.10g}, "
-            f"y = {y[0]:.10g} to {y[-1]:.10g}; the maps: x = {west:.10g} to {east:.10g}, y = {south:.10g} to "
-            f"{north:.10g}). Use a DEM in the coordinate reference system of the run."
+            f"y = {y[0]:.10g} to {y[-1]:.10g}; allowed {west:.10g} to {east:.10g}, {south:.10g} to {north:.10g}). Use "
+            "a DEM in the coordinate reference system of the run."
         )
