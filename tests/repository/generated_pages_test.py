@@ -46,7 +46,7 @@ def test_the_command_line_page_has_every_command(tmp_path: Path) -> None:
 
 @needs_program
 def test_every_history_column_is_defined() -> None:
-    source = (ROOT / "src" / "sim" / "history.cpp").read_text()
+    source = (ROOT / "src" / "sim" / "records" / "history.cpp").read_text()
     columns = set(re.findall(r'(?:emplace_back|\badd)\("(\w+)"', source))
     columns |= {f"{name}_{axis}_N" for name in re.findall(r'"(\w+)_\{\}_N"', source) for axis in "xyz"}
     assert len(columns) > 35

@@ -15,6 +15,7 @@ namespace {
 // was measured on resting and sliding blocks with 2 particles per cell and axis. Diffusion was stable at 0.99 of the
 // textbook limit.
 constexpr double wave_fraction = 1.0;       // of cell / P-wave speed, with viscosity as in wave_limit
+constexpr double apic_fraction = 0.75;      // of the wave limit where viscosity rules, with APIC: unstable at 0.8
 constexpr double particle_fraction = 0.5;   // of cell / particle speed: a particle may not skip a node
 constexpr double diffusion_fraction = 1.0;  // of length^2 / (2 Dim diffusivity)
 
@@ -80,7 +81,8 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
       const auto viscosity_time = material.viscosity_time;
       const bool is_viscous = viscosity_rules(cell, speeds, viscosity_time);
       const band::Extreme& what = is_viscous || of_pores > of_skeleton ? lightest : stiffest;
-      visit(wave_fraction * wave_limit(cell, speeds, viscosity_time),
+      const bool is_viscous_apic = is_viscous && model.motion.transfer == mpm::TransferKind::apic;
+      visit((is_viscous_apic ? apic_fraction : wave_fraction) * wave_limit(cell, speeds, viscosity_time),
             is_viscous ? LimitKind::viscosity : LimitKind::wave, what.particle,
             [&] { return wave_text(model.material_names[m], cell, on_cells(), speeds, viscosity_time); });
     }
