@@ -69,7 +69,10 @@ def new_case(
 
     Examples
     --------
-    >>> case = new_case("dem.tif", "release.gpkg", "my-slide", thickness=20.0)  # doctest: +SKIP
+    >>> valley = "cases/valley3d"
+    >>> case = new_case(f"{valley}/valley.tif", f"{valley}/release.geojson", "my-slide", on_message=lambda line: None)
+    >>> case.dimension
+    3
 
     """
     options = {

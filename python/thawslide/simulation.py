@@ -21,6 +21,7 @@ from thawslide.units import cf_unit
 
 __all__ = ["Field", "LiveMaps", "Nodes", "Simulation"]
 
+_ROUND_OFF = 1e-12  # relative, of multiples of an interval
 _CHUNK = 0.1  # wall-clock time between two looks at signals [s]
 
 
@@ -297,7 +298,7 @@ class Simulation:
         while self.time < target and not self.is_done:
             if every is not None:
                 next_call = max(next_call + every, self.time)
-                self._advance(min(target, next_call), sys.maxsize)
+                self._advance(min(target, next_call * (1.0 - _ROUND_OFF)), sys.maxsize)
             else:
                 self._advance(target, every_steps or 1)
             if callback(self):

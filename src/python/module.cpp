@@ -276,14 +276,16 @@ NB_MODULE(_core, module) {
       .def(
           "row", [](Live& self) { return columns_of({self.use(1, [](run::LiveRun& live) { return live.row(); })}); },
           nb::sig("def row(self) -> dict[str, object]"))
-      .def("key_numbers",
-           [](Live& self) {
-             nb::dict numbers;
-             for (const auto& [name, value] : self.use(1, [](run::LiveRun& live) { return live.key_numbers(); })) {
-               numbers[name.c_str()] = value;
-             }
-             return numbers;
-           })
+      .def(
+          "key_numbers",
+          [](Live& self) {
+            nb::dict numbers;
+            for (const auto& [name, value] : self.use(1, [](run::LiveRun& live) { return live.key_numbers(); })) {
+              numbers[name.c_str()] = value;
+            }
+            return numbers;
+          },
+          nb::sig("def key_numbers(self) -> dict[str, float]"))
       .def_prop_ro("maps", [](const Live& self) { return self.get().maps(); })
       .def(
           "map",

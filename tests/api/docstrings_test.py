@@ -11,7 +11,7 @@ import pytest
 import thawslide
 
 ROOT = Path(__file__).resolve().parents[2]
-MODULES = ("case", "logger", "new_cases", "runs", "scarps.release", "simulation", "sweeps.api")
+MODULES = ("case", "logger", "new_cases", "runs", "simulation", "sweeps.api")
 FUNCTIONS = ("block", "new_case", "resume", "run", "scarp", "sweep")
 
 

@@ -121,7 +121,7 @@ def test_runs_and_resume_end_within_half_a_step(slope: Path, tmp_path: Path, cap
     run = thawslide.run(case, tmp_path / "run", threads=1, progress=False)
     simulation = thawslide.Simulation(case, threads=1)
     simulation.run()
-    assert run.history["time_s"][-1] == pytest.approx(0.198) and simulation.time == pytest.approx(0.198)
+    assert run.history["time_s"].iloc[-1] == pytest.approx(0.198) and simulation.time == pytest.approx(0.198)
     thawslide.resume(tmp_path / "run", {"time.end": 0.1994}, threads=1)
     assert "has reached its end at 0.198 s; nothing to do" in capfd.readouterr().err
     simulation.change({"time.end": 0.1994})
@@ -129,7 +129,7 @@ def test_runs_and_resume_end_within_half_a_step(slope: Path, tmp_path: Path, cap
     simulation.change({"time.end": 0.2})
     simulation.run()
     run = thawslide.resume(tmp_path / "run", {"time.end": 0.2}, threads=1, progress=False)
-    assert run.history["time_s"][-1] == pytest.approx(0.2) and simulation.time == pytest.approx(0.2)
+    assert run.history["time_s"].iloc[-1] == pytest.approx(0.2) and simulation.time == pytest.approx(0.2)
 
 
 def test_a_run_prints_lines_and_may_be_replaced(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

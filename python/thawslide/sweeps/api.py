@@ -131,8 +131,10 @@ def sweep(
 
     Examples
     --------
-    >>> table = sweep("cases/incline/D.toml", "runs/angles", vary={"basal.friction_angle": [20, 25]},
-    ...               block=True, progress=False)  # doctest: +SKIP
+    >>> angles = {"basal.friction_angle": [20, 25]}
+    >>> table = sweep("cases/incline/D.toml", "runs/angles", vary=angles, block=True, workers=1, progress=False)
+    >>> len(table)
+    2
 
     """
     files = [cases] if isinstance(cases, str | PathLike) else list(cases)
