@@ -60,10 +60,16 @@ def test_maps_at_report_times_have_values_of_particles(map_run: Path, name: str,
 def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
     figure = plotted("extent_maps", map_run)
     panels = maps_of(figure)
-    assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
-        ("(a) maximum flow thickness", "max 6 m"), ("(b) maximum speed", "max 20 m/s"),
-        ("(c) arrival time", "0 to 9.8 s"), ("(d) flow thickness at 10 s", "max 6 m"),
+    assert [axes.get_title(loc="left").replace("\n", " ") for axes in panels] == [
+        "(a) maximum flow thickness", "(b) maximum speed", "(c) arrival time", "(d) flow thickness at 10 s",
     ]  # fmt: skip
+    remarks = ({text.get_text() for text in axes.texts} | {axes.get_title(loc="right")} for axes in panels)
+    for found, words in zip(remarks, ("max 6 m", "max 20 m/s", "0 to 9.8 s", "max 6 m"), strict=True):
+        assert words in found
+    first, *others = (axes.get_position() for axes in panels)
+    assert all(other.y1 < first.y0 and other.width < 0.5 * first.width for other in others)
+    assert field(panels[3]).norm.vmax == field(panels[0]).norm.vmax, "one scale of thicknesses"
+    assert len(figure.axes) == len(panels) + 3, "no second colour bar of thicknesses"
     assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
     assert " Outline: thickness > 0.1 m. " in notes(figure)
     final = field(panels[3]).get_array()
@@ -182,7 +188,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     assert not any("eposit" in row.words for row in found.values())
     figure = plotted("extent_maps", map_run)
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
-    assert any("flow thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
+    assert any(axes.get_title(loc="left") == "(d) flow thickness at\n10 s (not at rest)" for axes in figure.axes)
     page = page_of(map_run)
     assert f'<p class="note">Warning: {warning}</p>' in page and "Deposit" not in page
 

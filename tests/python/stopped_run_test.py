@@ -21,7 +21,7 @@ def test_figures_of_a_stopped_run_have_its_last_time(map_run: Path) -> None:
         case.write("[time]\nend = 60.0\n[report]\ntimes = [0.0, 2.0]\n")
     note = "The run was stopped at 9.51 s of 60 s. "
     extent = plotted("extent_maps", map_run)
-    assert maps_of(extent)[-1].get_title(loc="left") == "(d) flow thickness at 9.51 s (stopped)"
+    assert maps_of(extent)[-1].get_title(loc="left") == "(d) flow thickness at\n9.51 s (stopped)"
     assert maps_of(plotted("impact_maps", map_run))[-1].get_title(loc="left")[4:] == (
         "elevation change at 9.51 s (stopped)"
     )

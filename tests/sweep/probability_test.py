@@ -1,5 +1,6 @@
 """Probability and quantile maps against NumPy, extents, and refused rasters."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,8 @@ import rasterio
 
 from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
+from thawslide.figures.colours import PROBABILITY_LIMITS
+from thawslide.sweeps.map_figure import probability_maps
 from thawslide.sweeps.probability import rasters_in, write_probability_maps
 from thawslide.sweeps.probability_command import main
 
@@ -147,3 +150,30 @@ def test_another_raster_than_a_map_is_named(
     assert main([str(plain), str(odd), "--quantity", quantity, "--output", str(tmp_path / "out")]) == 0
     noted = [line for line in capsys.readouterr().err.splitlines() if "such as a DEM" in line]
     assert [str(odd) in line for line in noted] == [True] * is_noted
+
+
+def test_figure_has_probabilities_in_classes_and_one_bar_for_each_quantity(tmp_path: Path) -> None:
+    x = np.linspace(0.0, 1.0, 60)[None, :] * np.ones((40, 1))
+    fields = {"reached": x, "thickness_above_1": 0.5 * x, "thickness_p50": 3.0 * x, "thickness_p90": 12.0 * x}
+    files = [write(tmp_path / f"{name}.tif", values) for name, values in fields.items()]
+    for path in files[2:]:
+        with rasterio.open(path, "r+") as file:
+            file.units = ("m",)
+    figure = probability_maps(files, write(tmp_path / "terrain.tif", 100.0 * x), 8)
+    maps = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
+    bars = [axes for axes in figure.axes if axes not in maps]
+    assert [axes.get_ylabel() for axes in bars] == ["probability", "thickness (m)"]
+    assert [label.get_text() for label in bars[0].get_yticklabels()] == [
+        "0",
+        "0.05",
+        "0.25",
+        "0.5",
+        "0.75",
+        "0.95",
+        "1",
+    ]
+    norms = [axes.images[-1].norm for axes in maps]
+    for norm in norms[:2]:
+        shades = [float(norm(0.5 * (low + high))) for low, high in pairwise(PROBABILITY_LIMITS)]
+        assert len(set(shades)) == 6 and norm(0.051) == norm(0.249) != norm(0.251)
+    assert norms[2].vmax == norms[3].vmax == pytest.approx(12.0)

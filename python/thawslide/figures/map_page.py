@@ -19,6 +19,8 @@ _LEFT, _RIGHT, _GAP, _HEAD, _TITLE, _TICKS, _LINE = 0.62, 0.2, 0.28, 0.38, 0.3, 
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
 _NAME_CHARACTERS = 13.5  # of the page's title in one inch
 _TITLE_CHARACTERS = 12.8  # of a panel's titles in one inch
+_ACROSS, _LOWEST = 3, 2.6  # small maps below a large one, and their maximum height
+_TWO_LINES, _BAR_BELOW = 0.4, 0.6  # above and below the small maps, for their titles and colour bars
 
 
 @dataclass(frozen=True)
@@ -81,13 +83,17 @@ class MapPage:
         found = layout(count, scene.aspect, bar, self.head, _HEAD + _TICKS + foot + lines * _LINE)
         self.columns, self.map_width, self.map_height = found.columns, found.width, found.height
         needed = _LEFT + found.columns * (found.width + bar + _GAP) - _GAP + _RIGHT
-        self.width = max(needed, narrowest)
+        rows = -(-count // found.columns)
+        self._start(title, note, foot, max(needed, narrowest), rows * (found.height + self.head) + _TICKS)
+
+    def _start(self, title: str, note: str, foot: float, width: float, maps_height: float) -> None:
+        """Create the figure with title and note around the height of the maps."""
+        self.width = width
         note_lines = wrapped(note, _NOTE_CHARACTERS * (self.width - _LEFT - _RIGHT))
         self.note_height = 0.06 + len(note_lines) * _LINE
-        rows = -(-count // found.columns)
         titles = wrapped(title, _NAME_CHARACTERS * (self.width - _LEFT - _RIGHT))
         self.top = _HEAD + 0.17 * (len(titles) - 1)
-        self.below = self.top + rows * (found.height + self.head) + _TICKS  # end of the maps
+        self.below = self.top + maps_height  # end of the maps
         self.height = self.below + foot + self.note_height
         self.figure = Figure(figsize=(self.width, self.height))
         self.figure.suptitle(
@@ -164,3 +170,56 @@ class MapPage:
             handles=list(handles), loc="lower left", ncols=columns, borderaxespad=0.0,
             bbox_to_anchor=(_LEFT / self.width, (self.note_height + 0.05) / self.height),
         )  # fmt: skip
+
+
+class LeadPage(MapPage):
+    """A page of one large map, with the others in a row below it."""
+
+    def __init__(self, title: str, scene: Scene, count: int, *, note: str, foot: float, bar: float) -> None:
+        """Place up to four maps; the large one has `bar` inches for a colour bar at its right, the others below."""
+        self.has_own_scenes = False
+        self.head, self.scene, self.count, self.bar, self.left = _TITLE, scene, count, bar, _LEFT
+        inside = WIDTH - _LEFT - _RIGHT
+        self.columns = _ACROSS
+        self.map_height = min((inside - (_ACROSS - 1) * _GAP) / _ACROSS / scene.aspect, _LOWEST)
+        self.map_width = self.map_height * scene.aspect
+        row = _TWO_LINES + self.map_height + _BAR_BELOW
+        self.lead_height = min((inside - bar) / scene.aspect, TALLEST)
+        self._start(title, note, foot, WIDTH, _TITLE + self.lead_height + _TICKS + row)
+
+    def panel(self, number: int, labels: bool, scene: Scene | None = None) -> Axes:
+        """Return the axes of the large map, number 0, or of one in the row below, without coordinates."""
+        top = self.top + _TITLE
+        if number == 0:
+            axes = self.place(_LEFT, top, self.lead_height * self.scene.aspect, self.lead_height)
+        else:
+            top += self.lead_height + _TICKS + _TWO_LINES
+            left = _LEFT + (number - 1) * (self.map_width + _GAP)
+            axes = self.place(left, top, self.map_width, self.map_height)
+        draw_scene(axes, scene or self.scene, labels)
+        if number == 0:
+            axes.set_ylabel("northing (km)")
+            axes.set_xlabel("easting (km)")
+        else:
+            axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
+        return axes
+
+    def set_titles(self, panels: Sequence[tuple[Axes, str, str]]) -> None:
+        """Set titles with letters: a remark is right of that of the large map, and inside the others."""
+        for number, (axes, words, remark) in enumerate(panels):
+            title = f"({chr(ord('a') + number)}) {words}"
+            if number == 0:
+                axes.set_title(title, loc="left")
+                axes.set_title(remark, loc="right", color=NOTE, size=8)
+            else:
+                axes.set_title("\n".join(wrapped(title, _TITLE_CHARACTERS * self.map_width)), loc="left")
+                axes.text(
+                    0.97, 0.97, remark, transform=axes.transAxes, ha="right", va="top", size=7.5, path_effects=HALO,
+                    zorder=9,
+                )  # fmt: skip
+
+    def bar_below(self, axes: Axes) -> Axes:
+        """Return axes for a horizontal colour bar below a map of the row."""
+        box = axes.get_position()
+        height = 0.12 / self.height
+        return self.figure.add_axes((box.x0, box.y0 - 0.1 / self.height - height, box.width, height))

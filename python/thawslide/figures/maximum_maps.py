@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,10 +14,10 @@ from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import colour_range, label_bar, thickness_norm, thickness_words
-from thawslide.figures.map_page import MapPage
+from thawslide.figures.map_page import LeadPage, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar, thin_labels
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.style import styled
+from thawslide.figures.style import NOTE, styled
 from thawslide.maps import Map
 from thawslide.number_text import exact_text, number_text, prefixed
 from thawslide.relief import contour_levels
@@ -63,31 +64,43 @@ _FOOT = 0.25  # inches below the maps, for the legend
 @styled
 def extent_maps(run: Run) -> Figure:
     """Map maximum thickness and speed, arrival time and final thickness, with release, path and probes."""
-    return _plot(run, _EXTENT, "extent", 0.72)
+    site, fields = _fields(run, _EXTENT)
+    page = LeadPage(run.titled("extent"), site.scene, len(fields), note=_note(run, site), foot=_FOOT, bar=0.72)
+    return _plot(run, site, page, fields)
 
 
 @styled
 def impact_maps(run: Run) -> Figure:
     """Map maximum pressures, momentum flux, temperature and meltwater depth, and the elevation change."""
-    return _plot(run, _IMPACT, "pressure, temperature and elevation change", 0.88)
+    site, fields = _fields(run, _IMPACT)
+    title = run.titled("pressure, temperature and elevation change")
+    page = MapPage(title, site.scene, len(fields), note=_note(run, site), foot=_FOOT, bar=0.88)
+    return _plot(run, site, page, fields)
 
 
-def _plot(run: Run, kinds: Sequence[MapKind], words: str, bar: float) -> Figure:
-    """Plot maps with `bar` [inches] for each colour bar."""
+def _fields(run: Run, kinds: Sequence[MapKind]) -> tuple[Site, list[tuple[MapKind, Map]]]:
+    """Return the site of a run, and those of the maps that have values; NotInRunError without any."""
     site = make_site(run)
     fields = [(kind, _covered_part(site, kind)) for kind in kinds if kind.name in site.maps]
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: no values in the maps {', '.join(kind.name for kind in kinds)}.")
-    outline = f"Outline: {site.outline_words}."
-    note = f"{run.end_note}{outline} {site.scene.note()}"
-    page = MapPage(run.titled(words), site.scene, len(fields), note=note, foot=_FOOT, bar=bar)
+    return site, fields
+
+
+def _note(run: Run, site: Site) -> str:
+    return f"{run.end_note}Outline: {site.outline_words}. {site.scene.note()}"
+
+
+def _plot(run: Run, site: Site, page: MapPage, fields: Sequence[tuple[MapKind, Map]]) -> Figure:
+    """Plot maps on a page; a map of the same quantity as the first one has its colours."""
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
     for number, (kind, field) in enumerate(fields):
         axes = page.panel(number, labels=number == 0)
         words = f"{kind.words} at {run.last_state}" if kind.is_last_state else kind.words
-        panels.append((axes, words, _paint(page, axes, kind, field)))
+        like_first = isinstance(page, LeadPage) and number > 0 and kind.is_thickness and fields[0][0].is_thickness
+        panels.append((axes, words, _paint(page, axes, kind, field, fields[0][1] if like_first else None)))
         site.draw_release(axes)
         site.draw_outline(axes)
         if kind.name == "arrival_time":
@@ -114,25 +127,32 @@ def _covered_part(site: Site, kind: MapKind) -> Map:
     return replace(field, values=values)
 
 
-def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> str:
-    """Paint a field with its colour bar; return its maximum or its range as text."""
+def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map, first: Map | None) -> str:
+    """Paint a field with its colour bar, or in the colours of the first map; return its maximum or range as text."""
     divisor, unit = prefixed(field.values, kind.unit) if kind.unit == "Pa" else (1.0, kind.unit)
     field = replace(field, values=field.values / divisor)
-    norm, extend = _norm(field.values, kind)
+    norm, extend = _norm((first or field).values, kind)
     painter = ScalarMappable(norm, colour_map(kind.colours))
     paint(axes, field, painter)
-    bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
+    low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
+    remark = (
+        f"max {number_text(high)} {unit}" if kind.has_zero_base else f"{number_text(low)} to {number_text(high)} {unit}"
+    )
+    if first is not None:
+        axes.text(0.5, -0.06, "colours as in (a)", transform=axes.transAxes, ha="center", va="top", size=8, color=NOTE)
+        return remark
+    is_below = isinstance(page, LeadPage) and page.figure.axes[0] is not axes
+    place = page.bar_below(axes) if isinstance(page, LeadPage) and is_below else page.panel_bar(axes)
+    orientation: Literal["horizontal", "vertical"] = "horizontal" if is_below else "vertical"
+    bar = page.figure.colorbar(painter, cax=place, extend=extend, orientation=orientation)
     if kind.is_thickness:
         label_bar(bar, norm)
         unit_words = thickness_words(norm).replace("flow thickness (m)", "m").replace("; ", "\n")
     else:
-        bar.ax.yaxis.set_major_formatter(lambda value, _: exact_text(value))
+        (bar.ax.xaxis if is_below else bar.ax.yaxis).set_major_formatter(lambda value, _: exact_text(value))
         unit_words = unit
     bar.set_label(unit_words, labelpad=2)
-    low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
-    return (
-        f"max {number_text(high)} {unit}" if kind.has_zero_base else f"{number_text(low)} to {number_text(high)} {unit}"
-    )
+    return remark
 
 
 def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
