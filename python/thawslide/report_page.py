@@ -194,7 +194,7 @@ def _diagnosis(run: Run, report: Report, figures: dict[str, Path]) -> list[str]:
     if inputs := inputs_of(run.facts):
         parts += ['<h2 id="inputs">Input files</h2>', inputs]
     if settings := settings_of(run):
-        parts += ["<h2>Settings</h2>", "<p>Keys of the case; all others have their defaults.</p>", settings]
+        parts += ["<h2>Settings</h2>", details("Keys of the case; all others have their defaults", settings)]
     parts += ["<h2>Run information</h2>", *facts_of(run.facts)]
     return parts
 

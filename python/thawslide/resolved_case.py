@@ -72,6 +72,7 @@ _KINDS: dict[str, dict[str, Kind]] = {
         "force_source": _TEXT,
     },
 }
+_TABLES = ("basal", "bed", "body", "material", "mechanisms", "probe", "substrate")
 _PROBE: dict[str, Kind] = {"point": (lambda value: value == [] or _is_corner(value), _CORNER[1])}
 
 
@@ -82,7 +83,7 @@ def read_case(path: Path) -> Case:
     except (ValueError, RecursionError) as error:  # an integer of too many digits is a ValueError
         raise ReportError(f"{path}: not valid TOML ({error}). {_REPEAT}") from error
     check_depth(case, path)
-    for name in (*_KINDS, "body", "material", "probe"):
+    for name in (*_KINDS, *_TABLES):
         if not isinstance(case.get(name, {}), dict):
             raise ReportError(f"{path}: {name}: not a table. {_REPEAT}")
     for name, kinds in _KINDS.items():

@@ -14,6 +14,7 @@ from map_runs import THICKNESS
 from matplotlib.figure import Figure
 
 from thawslide import Run
+from thawslide.errors import ReportError
 from thawslide.figures.area import whole_figure
 from thawslide.figures.section_results import draw_section_arrival, section_extent
 from thawslide.main_numbers import main_numbers
@@ -134,6 +135,15 @@ def test_assumptions_are_those_of_the_case(make_run: MakeRun) -> None:
         "Temperature of the mass at the start: −5 °C.",
     ]
     assert found[4] == "The mass entrains material from the ground."  # porosity differs between the bodies
+
+
+@pytest.mark.parametrize("name", ["basal", "bed", "body", "mechanisms", "substrate"])
+def test_value_in_place_of_a_table_is_an_error(make_run: MakeRun, name: str) -> None:
+    folder = make_run()
+    text = (folder / "case.toml").read_text()
+    (folder / "case.toml").write_text(f"{name} = 5\n{text}")
+    with pytest.raises(ReportError, match=f"case.toml: {name}: not a table"):
+        page_of(folder)
 
 
 def test_settings_are_the_keys_that_the_case_gives(make_run: MakeRun) -> None:
