@@ -25,6 +25,17 @@ ALLOWED = {
 }
 ALLOWED["python"] = ALLOWED["run"] | {"python", "generated"}
 ALLOWED["app"] = ALLOWED["run"] | {"app", "generated"}
+# Folders of sim that each of them may include, besides itself; "" is sim itself.
+ALLOWED_IN_SIM = {
+    "setup": set(),
+    "solver": {"setup"},
+    "maps": {"setup"},
+    "between_steps": {"setup", "solver", "maps"},
+    "": {"setup", "solver", "maps", "between_steps"},
+    "records": {"setup", "solver", "maps", "between_steps", ""},
+    "checks": {"setup", "solver", "maps", "between_steps", ""},
+    "block": {"setup", "solver", "maps", "between_steps", "", "records", "checks"},
+}
 # Pages that scripts/site generates; it checks links to them, with their headings.
 GENERATED = {"docs/pages.md", "docs/reference.md", "docs/reliability.md", "docs/verification-details.md"} | {
     f"docs/reference/{name}.md" for name in ("command-line", "errors", "outputs-columns", "warnings")
@@ -92,6 +103,20 @@ def test_modules_include_only_allowed_modules() -> None:
                 wrong.append(f"{place(path)} includes {include}, but {module} may not include {module_of(include)}")
     assert seen > 100
     assert wrong == []
+
+
+def test_folders_of_sim_include_only_allowed_folders() -> None:
+    wrong = []
+    for path in code_files("src/sim"):
+        folder = str(path.parent.relative_to(SOURCE / "sim")).removeprefix(".")
+        for include in includes_of(path.read_text()):
+            used = str(Path(include).parent)
+            if used.split("/")[0] == "sim" and used.removeprefix("sim").strip("/") not in ALLOWED_IN_SIM[folder] | {
+                folder
+            }:
+                wrong.append(f"{place(path)} includes {include}")
+    assert wrong == []
+    assert {path.name for path in (SOURCE / "sim").iterdir() if path.is_dir()} == set(ALLOWED_IN_SIM) - {""}
 
 
 def test_includes_name_their_module_and_exist() -> None:
