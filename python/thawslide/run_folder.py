@@ -195,6 +195,11 @@ class Run:
         path = self._report_file("targets")
         return shifted_targets(self, read_targets(path)) if path else []
 
+    @property
+    def logo(self) -> Path | None:
+        """The image at the top of reports, None if the case names none."""
+        return self._report_file("logo")
+
     @cached_property
     def force_record(self) -> ForceRecord | None:
         """The force inverted from seismic waves, None if the case names none."""

@@ -20,6 +20,9 @@ struct Maps {
 };
 
 struct Report {
+  std::string author;                 // name or office
+  std::string scenario;               // sentences on the simulated event
+  std::string logo;                   // PNG or JPEG
   std::vector<double> times;          // s, of the snapshot figures; empty: selected by displacement
   std::string targets;                // CSV: quantity,time_s,value,unit,source,kind
   std::string force_record;           // CSV: time_s,up_N,north_N,east_N

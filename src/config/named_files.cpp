@@ -55,6 +55,7 @@ std::vector<InputFile> named_files(const Case& parameters) {
     add(files.empty() ? "" : "case.based_on", each.file, false);
   }
   add("terrain.file", parameters.terrain.file, parameters.terrain.kind == TerrainKind::dem);
+  add("report.logo", parameters.report.logo, false);
   add("report.targets", parameters.report.targets, false);
   add("report.force_record", parameters.report.force_record, false);
   for (const InputFile& map : map_files(parameters)) {

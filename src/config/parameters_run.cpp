@@ -250,6 +250,13 @@ std::vector<Parameter<Report>> report_parameters() {
   const std::string when_record = "when force_record is given";
   const auto has_record = [](const Case&, const Report& report) { return !report.force_record.empty(); };
   return {
+      parameter(&Report::author, {.key = "author", .text = "name or office that the report and the summary state"}),
+      parameter(&Report::scenario,
+                {.key = "scenario", .text = "sentences with which the description of the event in the report begins"}),
+      parameter(&Report::logo,
+                {.key = "logo",
+                 .text = "image at the top of the report and the summary, a PNG or JPEG file; \"\": none",
+                 .is_path = true}),
       parameter(&Report::times, {.key = "times",
                                  .unit = "s",
                                  .range = at_least(0),

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from conftest import MakeRun
+
 from thawslide import Run
 from thawslide.report_page import make_report
 

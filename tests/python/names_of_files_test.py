@@ -26,7 +26,8 @@ def names_in(list_name: str) -> set[str]:
 
 def test_simulator_has_all_names_of_figures_and_maps() -> None:
     assert names_in("figures_of_a_run") == set(FIGURES)
-    kinds = set(re.findall(r'^ +{"(\w+)", "', (ROOT / "src" / "sim" / "maps" / "map_kinds.cpp").read_text(), re.MULTILINE))
+    source = (ROOT / "src" / "sim" / "maps" / "map_kinds.cpp").read_text()
+    kinds = set(re.findall(r'^ +{"(\w+)", "', source, re.MULTILINE))
     assert len(kinds) >= 10
     assert names_in("maps_of_a_run") == kinds | {"terrain", "release", "ground"}
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Fails, MakeRun, history_columns, page_of, write_facts, write_history
+
 from thawslide import Run
 from thawslide.balance import balances
 from thawslide.command_line import main

@@ -5,8 +5,9 @@ import re
 from pathlib import Path
 
 import pytest
-import thawslide
 from conftest import Fails, MakeRun, update_facts
+
+import thawslide
 from thawslide import Run
 from thawslide.command_line import main
 from thawslide.errors import ReportError

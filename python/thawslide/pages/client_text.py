@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from thawslide.balance import balances
+from thawslide.errors import printable
 from thawslide.key_numbers import key_numbers
 from thawslide.main_numbers import arrivals
 from thawslide.maps import on_map
@@ -51,7 +52,7 @@ class ClientText:
     arrivals: list[tuple[str, str, str]]
     limits: list[str]
     origin: list[str]
-    computed: str  # date and program
+    computed: str  # author, date and program
 
 
 def client_text(run: Run, say: Messages) -> ClientText:
@@ -66,8 +67,13 @@ def client_text(run: Run, say: Messages) -> ClientText:
         arrival_rows(run, say),
         limits(run, say),
         origin(run, say),
-        say("computed", date=_date(run), version=run.facts.get("version", _DASH)),
+        _author(run) + say("computed", date=_date(run), version=run.facts.get("version", _DASH)),
     )
+
+
+def _author(run: Run) -> str:
+    author = str(run.section("report").get("author", ""))
+    return f"{printable(author)}, " if author else ""
 
 
 def alerts(run: Run, say: Messages) -> list[str]:
@@ -81,7 +87,9 @@ def scenario(run: Run, say: Messages, ranges: Ranges | None = None) -> list[str]
     volume = mobility_of(run).volume
     if volume is None and ranges:
         volume = ranges.own.get("release_volume_m3")
+    stated = str(run.section("report").get("scenario", ""))
     sentences = [
+        *([printable(stated)] if stated else []),
         say("release_unknown") if volume is None else say("release", volume=say.volume(volume)),
         say("covers", time=say.time(run.last_time)),
     ]

@@ -108,6 +108,7 @@ h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid var(--line); }
 .where, .times, figcaption, td:last-child:not(:nth-child(2)) { color: var(--quiet); }
 .where { margin: .3rem 0 0; }
+.logo { float: right; max-width: 9rem; max-height: 3.6rem; margin-left: 1rem; }
 nav { margin: .8rem 0; font-size: .9rem; }
 a { color: var(--link); text-decoration: none; }
 a:hover { text-decoration: underline; }

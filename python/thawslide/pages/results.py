@@ -10,6 +10,7 @@ from thawslide.figures.site import Site, make_site
 from thawslide.maps import on_map
 from thawslide.messages import Messages
 from thawslide.pages.client_text import ClientText, PlainNumber, client_text
+from thawslide.pages.logo import logo_html
 from thawslide.pages.markup import drawn_data, figure_part, items
 from thawslide.run_folder import Run
 
@@ -23,6 +24,7 @@ def results(run: Run, say: Messages, extent: str) -> str:
     shown = extent or f"<p>{html.escape(say('not_drawn'))}</p>"
     return "\n".join(
         [
+            *logo_html(run),
             f"<h1>{html.escape(run.title)}</h1>",
             f'<p class="where">{html.escape(say("results"))}, {html.escape(text.computed)}</p>',
             *(f'<p class="note">{html.escape(alert)}</p>' for alert in text.alerts),

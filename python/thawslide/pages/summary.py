@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
@@ -29,6 +30,7 @@ from thawslide.figures.style import BLUE, NOTE, RED, common_style, disable_formu
 from thawslide.maps import on_map, read_map
 from thawslide.messages import LANGUAGES, Messages
 from thawslide.pages.client_text import ClientText, client_text
+from thawslide.pages.logo import logo_html, logo_of
 from thawslide.pages.markup import drawn_data, figure_part, items, page_frame, table
 from thawslide.pages.results import map_note
 from thawslide.run_folder import Run
@@ -36,6 +38,7 @@ from thawslide.run_folder import Run
 NAMES = ("summary.html", "summary.pdf")
 _WIDTH, _HEIGHT, _MARGIN = 8.27, 11.69, 0.75  # inches: A4
 _INSIDE = _WIDTH - 2 * _MARGIN
+_LOGO = (1.5, 0.6)  # inches, largest
 _CHARACTERS = 14.5  # of a text of 9.5 points in one inch
 _HIGHEST, _BETWEEN = 3.9, 0.3  # inches, of the maps of the second page, and between them
 _MOST_ROWS = 12  # of arrivals on paper, to leave space for the map
@@ -69,6 +72,7 @@ class Summary:
     text: ClientText
     first: Panel
     second: list[Panel]
+    run: Run
 
     @property
     def limits(self) -> list[str]:
@@ -107,7 +111,7 @@ def make_summary(
     page, document = ((output or run.folder) / name for name in NAMES)
     try:
         first, *second = _map_panels(run, say, probability) if on_map(run) else _section_panels(run, say)
-        summary = Summary(run.title, say, context, members, client_text(run, say), first, second)
+        summary = Summary(run.title, say, context, members, client_text(run, say), first, second, run)
         page.parent.mkdir(parents=True, exist_ok=True)
         with atomic_file(page) as temporary:
             temporary.write_text(_page(summary, dpi), encoding="utf-8")
@@ -164,6 +168,7 @@ def _page(summary: Summary, dpi: int) -> str:
     title = html.escape(summary.title)
     numbers = ((each.name, each.value, each.spread, each.meaning) for each in text.numbers)
     parts = [
+        *logo_html(summary.run),
         f"<h1>{title}</h1>",
         f'<p class="where">{html.escape(summary.subtitle)}</p>',
         *(f'<p class="note">{html.escape(alert)}</p>' for alert in text.alerts),
@@ -263,7 +268,15 @@ class _Sheet:
 
 def _first_sheet(summary: Summary) -> _Sheet:
     sheet, say, text = _Sheet(), summary.say, summary.text
-    sheet.text(summary.title, 16, after=0.02, weight="bold")
+    logo = logo_of(summary.run)
+    if logo is not None:
+        width = min(_LOGO[0], _LOGO[1] * logo.width / logo.height)
+        height = width * logo.height / logo.width
+        area = (1 - (_MARGIN + width) / _WIDTH, 1 - (_MARGIN + height) / _HEIGHT, width / _WIDTH, height / _HEIGHT)
+        axes = sheet.figure.add_axes(area)
+        axes.imshow(np.asarray(logo), interpolation="antialiased")
+        axes.set_axis_off()
+    sheet.text(summary.title, 16, after=0.02, width=_INSIDE - (0.0 if logo is None else _LOGO[0]), weight="bold")
     sheet.text(summary.subtitle, 10, color=NOTE)
     for alert in text.alerts:
         sheet.text(alert, color=RED, weight="bold")

@@ -21,7 +21,8 @@ inline const std::string every_key = one_key_per_line(R"(
   removed_mass = 0.0625 | energy_growth = 0.5 | smallest_step = 0.25 | most_steps = 1000000.0
 [terrain] type = "profile" | elevation = -1.0 | file = "inputs/profile.csv" | extend = true
 [checkpoint] wall_interval = 60.0 | interval = 3.0
-[report] times = [1.0, 2.5] | targets = "inputs/targets.csv" | force_record = "inputs/force.csv" |
+[report] author = "an office" | scenario = "Ice falls." | logo = "inputs/logo.png" |
+  times = [1.0, 2.5] | targets = "inputs/targets.csv" | force_record = "inputs/force.csv" |
   force_periods = [10.0, 200.0] | force_source = "a survey"
 [phases] rock_density = 2700.5 | ice_density = 900.5 | water_density = 1001.5 | rock_heat_capacity = 801.5 |
   ice_heat_capacity = 2001.5 | water_heat_capacity = 4001.5 | rock_conductivity = 3.5 | ice_conductivity = 2.5 |
