@@ -102,7 +102,7 @@ POLICY
     --value: #74bdf0; }
   img, video, #view, #events { background: #fff; border-radius: 4px; }
 }
-body { font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: var(--text); background: var(--back);
+body { font: 1rem/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: var(--text); background: var(--back);
   max-width: 1080px; margin: 2rem auto; padding: 0 1.25rem; }
 h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; overflow-wrap: anywhere; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid var(--line); }
@@ -150,7 +150,8 @@ figcaption { font-size: .88rem; margin-top: .3rem; }
 @page { margin: 12mm; }
 @media print {
   nav, .controls, .part:not([open]) { display: none; }
-  body { margin: 0; font-size: 12px; }
+  :root { font-size: 12.5px; }
+  body { margin: 0; }
   figure { break-inside: avoid; }
 }
 </style>
