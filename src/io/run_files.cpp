@@ -37,6 +37,7 @@ constexpr std::string_view maps_of_a_run[] = {"terrain",           "release",   
                                               "max_melt",          "max_pore_pressure"};
 // In figures/, as images or videos (python/thawslide/figures/__init__.py).
 constexpr std::string_view figures_of_a_run[] = {"extent_maps",
+                                                 "view",
                                                  "animation",
                                                  "slide_speed",
                                                  "slide_thickness",

@@ -21,6 +21,7 @@ from thawslide.figures.motion import motion
 from thawslide.figures.probes import probes
 from thawslide.figures.slide_on_map import slide_speed, slide_temperature, slide_thickness
 from thawslide.figures.snapshots import plastic_strain, pore_pressure, temperature, velocity
+from thawslide.figures.view import view
 from thawslide.figures.water import water
 from thawslide.maps import on_map
 from thawslide.run_folder import Run
@@ -81,6 +82,13 @@ FIGURES: dict[str, FigureKind] = {
         "Maximum flow thickness and speed, arrival time, and flow thickness at the last time, from every time step. "
         "White lines: arrival time.",
         extent_maps,
+        on_map,
+    ),
+    "view": FigureKind(
+        "3D view",
+        "The terrain from in front of the slide, without vertical exaggeration. Colour: maximum depth-averaged speed. "
+        "Lines: affected area, and release (dashed). The bar is true across the view.",
+        view,
         on_map,
     ),
     "animation": FigureKind("Animation", "Depth-averaged speed, one frame per snapshot.", animation, on_map),

@@ -32,6 +32,7 @@ Lines lines_of(const std::string& text) {
 
 Case read_with_inputs(const std::string& text) {
   write_next_to_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
+  write_next_to_the_case("inputs/logo.png", "");
   write_next_to_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
   write_next_to_the_case("inputs/force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
   for (const std::string name : {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif",
