@@ -114,7 +114,7 @@ void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& 
     }
   }
   keep_only(alone);
-  split_long_segments(double(longest) * grid.cell(), ground);
+  split_long_segments(longest * grid.cell(), ground);
   merge_small_segments(grid, ground);
   checks_gaps_ = true;
 }
@@ -279,7 +279,7 @@ void BasalSegments<Dim>::merge_small_segments(const mpm::SparseGrid<Dim>& grid, 
     const bool is_first = k == 0 || entry.cell != entries[k - 1].cell;
     const auto is_near = [&] {
       const Vector<double, Dim> apart = small.position - segment.position;
-      return apart.template head<Dim - 1>().cwiseAbs().maxCoeff() < double(joining_reach) * grid.cell();
+      return apart.template head<Dim - 1>().cwiseAbs().maxCoeff() < joining_reach * grid.cell();
     };
     if (!is_first && small.area + segment.area <= ground.width(small.position.template head<Dim - 1>()) * largest &&
         is_near()) {

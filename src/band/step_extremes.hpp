@@ -60,8 +60,7 @@ struct FreeGaps {
   [[nodiscard]] THAWSLIDE_HD double elastic_density(const Particles& particles, std::uint32_t p) const {
     const double density = particles.mass(p) / particles.volume(p);
     const bool is_free = of_material[static_cast<std::size_t>(particles.material(p))] > 0.0;
-    return is_free && particles.gap.is_kept() ? physics::density_with_gap_closed(density, double(particles.gap(p)))
-                                              : density;
+    return is_free && particles.gap.is_kept() ? physics::density_with_gap_closed(density, particles.gap(p)) : density;
   }
 };
 

@@ -150,7 +150,7 @@ struct PressOnGround {
       const auto state = step.trial(node);
       base[mpm::BaseLayout::load] =
           known.bend * terrain::approach(step.distance_check, step.clearance_along_normal(node), step.dt, state.mass,
-                                         double(state.momentum.dot(known.normal)));
+                                         state.momentum.dot(known.normal));
     }
     base[mpm::BaseLayout::covered] = 0.0;
     if (known.area > 0.0) {

@@ -1,6 +1,7 @@
 #include "run/live_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "base/error.hpp"
@@ -18,6 +19,7 @@
 #include "sim/checks/body_figures.hpp"
 #include "sim/records/end_state.hpp"
 #include "sim/records/run_records.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::run {
 
@@ -51,11 +53,12 @@ class LiveRunOf final : public LiveRun {
   [[nodiscard]] std::int64_t step_number() const override { return simulation_->step_number(); }
   [[nodiscard]] std::size_t particle_count() const override { return simulation_->particle_count(); }
   [[nodiscard]] bool is_done() const override {
-    return !end_text_.empty() || simulation_->ends_at_rest() ||
+    return !simulation_->left_text().empty() || simulation_->ends_at_rest() ||
            has_reached_end(simulation_->time(), simulation_->last_step(), parameters().time.end);
   }
   [[nodiscard]] std::string end_text() const override {
-    return !end_text_.empty() || !simulation_->ends_at_rest() ? end_text_ : simulation_->rest_text();
+    const std::string& left = simulation_->left_text();
+    return left.empty() && simulation_->ends_at_rest() ? simulation_->rest_text() : left;
   }
   [[nodiscard]] bool has_basal_law() const override {
     return simulation_->ground() != nullptr && parameters().mechanics.enabled;
@@ -71,8 +74,7 @@ class LiveRunOf final : public LiveRun {
     }
     try {
       simulation_->step(simulation_->next_step(std::min(snapshot_schedule_.next(), parameters().time.end)), strength);
-      end_text_ = simulation_->left_text();
-      if (!end_text_.empty()) {
+      if (!simulation_->left_text().empty()) {
         records_.slide_left();
         add_row();
         return;
@@ -126,24 +128,20 @@ class LiveRunOf final : public LiveRun {
   }
 
   [[nodiscard]] NodeTable nodes() const override {
+    constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
     NodeTable table{Dim, {}, {}, {}};
-    const mpm::SparseGrid<Dim>& grid = simulation_->grid();
-    const sim::Model<Dim>& model = simulation_->model();
-    for (std::size_t b = 0; simulation_->step_number() > 0 && b < grid.blocks().size(); ++b) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+    const std::vector<std::uint64_t>& blocks = simulation_->blocks_of_nodes();
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto positions = positions_of_block(blocks[b]);
+      for (std::size_t k = 0; k < block_nodes; ++k) {
         const auto& record = simulation_->nodes().momentum(b, k);
         const double mass = record[mpm::MomentumLayout<Dim>::mass];
-        if (!(mass > 0.0)) {
-          continue;
+        for (std::size_t a = 0; mass > 0.0 && a < Dim; ++a) {
+          table.position.push_back(positions[k][static_cast<int>(a)]);
+          table.velocity.push_back(record[mpm::MomentumLayout<Dim>::momentum + a] / mass);
         }
-        Vector<double, Dim> position = mpm::node_position(grid, b, k);
-        if (model.ground) {
-          position[Dim - 1] += model.ground->height(position.template head<Dim - 1>());
-        }
-        table.mass.push_back(mass);
-        for (int a = 0; a < Dim; ++a) {
-          table.position.push_back(position[a] + model.origin[a]);
-          table.velocity.push_back(record[mpm::MomentumLayout<Dim>::momentum + static_cast<std::size_t>(a)] / mass);
+        if (mass > 0.0) {
+          table.mass.push_back(mass);
         }
       }
     }
@@ -266,6 +264,30 @@ class LiveRunOf final : public LiveRun {
       observer_.text(warning);
     }
   }
+  // Positions of the nodes of a block, in the coordinates of the case [m]. On terrain, columns of nodes begin at the
+  // height of the ground.
+  [[nodiscard]] auto positions_of_block(std::uint64_t block) const {
+    using T = mpm::Tile<Dim>;
+    constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
+    const sim::Model<Dim>& model = simulation_->model();
+    const typename T::Index first = terrain::first_node_of<Dim>(block);
+    std::array<terrain::GroundAtNode<Dim>, block_nodes> ground;
+    if (model.ground) {
+      model.ground->at_block(first, T::edge, ground.data());
+    }
+    std::array<Vector<double, Dim>, block_nodes> positions;
+    for (std::size_t k = 0; k < block_nodes; ++k) {
+      const typename T::Index node = T::node({}, static_cast<int>(k));
+      for (std::size_t a = 0; a < Dim; ++a) {
+        const bool is_height = model.ground && a + 1 == Dim;
+        positions[k][static_cast<int>(a)] =
+            model.origin[static_cast<int>(a)] +
+            (is_height ? ground[k].elevation : static_cast<double>(first[a] + node[a]) * parameters().grid.cell);
+      }
+    }
+    return positions;
+  }
+
   void add_row() { history_.push_back(records_.history_row(*simulation_)); }
 
   Observer& observer_;

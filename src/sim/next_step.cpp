@@ -88,8 +88,8 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
     where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", failure_text().name_of(p),
                         particles.volume(p) / particles.initial_volume(p));
   }
-  fail(fmt::format("the next step would be {:.3g} s, {}. It is set by {}{}. {}", dt, why, limit.what, where,
-                   advice_on(limit.kind, guards.volume == config::Policy::remove)));
+  fail_run(clock_, fmt::format("the next step would be {:.3g} s, {}. It is set by {}{}. {}", dt, why, limit.what, where,
+                               advice_on(limit.kind, guards.volume == config::Policy::remove)));
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                        \

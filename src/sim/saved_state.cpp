@@ -59,6 +59,7 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
     particles.previous_temperature(p) = particles.temperature(p);
   }
   slide_->are_located = false;
+  left_text_.clear();
   cpu_.find_cells();
   if (setup_.is_adaptive() && monitor_.first_step == 0.0) {
     monitor_.first_step = adaptive_step();  // steps were fixed so far

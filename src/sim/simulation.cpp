@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "band/heat.hpp"
-#include "band/pore_pressure.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "sim/between_steps/entrainment.hpp"
@@ -60,6 +59,10 @@ Simulation<Dim>::Simulation(const config::Case& parameters, const config::Site& 
   }
 }
 
+// Defined here, because instantiation wherever a run ends took half of the compile time of those sources.
+template <int Dim>
+Simulation<Dim>::~Simulation() = default;
+
 template <int Dim>
 void Simulation<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
   THAWSLIDE_ASSERT(left_text_.empty(), "a step without particles");
@@ -91,7 +94,7 @@ void Simulation<Dim>::monitor() {
   const mpm::MonitorSums seen = solver().monitor(monitor_kernel(setup_, clock_.last_step));
   if (const auto growth = check_energy(setup_, budget_, seen, monitor_)) {
     solver().sync_to_host();
-    fail(failure_text().of_energy(growth->energy, growth->fraction));
+    fail_run(clock_, failure_text().of_energy(growth->energy, growth->fraction));
   }
   invalid_ += seen.volumes;
   update_rest(setup_, clock_.time, seen, solver(), *slide_, monitor_);
@@ -99,59 +102,44 @@ void Simulation<Dim>::monitor() {
 
 template <int Dim>
 void Simulation<Dim>::stop_for_or_remove_particles() {
-  Marks marks = marks_of_invalid(setup_.parameters.guards, slide_->particles, invalid_);
+  mark_invalid(setup_.parameters.guards, slide_->particles, marks_, invalid_);
   stop_if_invalid();
   // After a step on a device, its tiles may be outdated.
-  mark_left(setup_, *slide_, device_ != nullptr, marks, invalid_);
+  mark_left(setup_, *slide_, device_ != nullptr, marks_, invalid_);
   if (invalid_.id >= 0) {
     monitor();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
   }
   stop_if_invalid();
-  remove(marks);
+  remove_marked();
 }
 
 template <int Dim>
 void Simulation<Dim>::stop_if_invalid() const {
   if (invalid_.id >= 0) {
-    fail(failure_text().of_particle(invalid_));
+    fail_run(clock_, failure_text().of_particle(invalid_));
   }
 }
 
 template <int Dim>
-void Simulation<Dim>::fail(const std::string& why) const {
-  throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}", clock_.time, clock_.step_number, why));
-}
-
-template <int Dim>
-void Simulation<Dim>::remove(const Marks& marks) {
-  const Removed now = count_of(marks);
+void Simulation<Dim>::remove_marked() {
+  const Removed now = count_of(marks_);
   if (now.all() == 0) {
     return;
   }
   const bool none_stays = static_cast<std::size_t>(now.all()) == slide_->particles.size();
   if (none_stays && now.by_guards() == 0) {
-    left_text_ = fmt::format(
-        "the whole slide has left the domain or the known terrain at t = {:.6g} s (step {}). mass_kg still includes "
-        "the last {} kg{}, which left in this step. Specify a larger domain ([grid] min and max) or a larger DEM, "
-        "and repeat the run.",
-        clock_.time, clock_.step_number, rounded_text(static_cast<double>(sum_over_body().mass), 3),
-        Dim == 2 ? " per m of width" : "");
+    left_text_ = text_of_left_slide<Dim>(clock_, sum_over_body().mass);
     return;
   }
-  add_removed(setup_, *slide_, marks, budget_before_, sums_of_particle(), budget_);
+  add_removed(setup_, *slide_, marks_, budget_before_, sums_of_particle(), budget_);
   removed_ += now;
-  const auto all_mass = budget_.initial_mass + budget_.joined_mass;
-  const double fraction = budget_.removed_mass / all_mass;
-  const double allowed = setup_.parameters.guards.removed_mass;
-  if (none_stays || fraction > allowed) {
-    invalid_ = first_invalid(setup_.parameters.guards, slide_->particles, marks);
-    fail(
-        fmt::format("[guards] has removed {}, {:.3g} % of all mass, where guards.removed_mass allows {:g} %; among the "
-                    "last: {}",
-                    text_of(removed_), 100.0 * fraction, 100.0 * allowed, failure_text().of_particle(invalid_)));
+  const double fraction = budget_.removed_mass / (budget_.initial_mass + budget_.joined_mass);
+  if (none_stays || fraction > setup_.parameters.guards.removed_mass) {
+    invalid_ = first_invalid(setup_.parameters.guards, slide_->particles, marks_);
+    fail_run(clock_, failure_text().of_removed(text_of(removed_), fraction, invalid_));
   }
   solver().release();
-  slide_->grid.remove(slide_->particles, slide_->particles.remove(marks));
+  slide_->grid.remove(slide_->particles, slide_->particles.remove(marks_));
   slide_->update_ground(setup_.model);
 }
 
@@ -209,13 +197,15 @@ void Simulation<Dim>::use_device(const std::string& device, device::SolverFactor
                                 setup_.parameters.name, missing, device));
   }
   solver().release();
-  device_ = std::make_unique<DeviceSolver<Dim>>(setup_, *slide_, base_, clock_, cpu_, device, std::move(make));
+  device_ =
+      std::make_unique<DeviceSolver<Dim>>(setup_, *slide_, base_, clock_, stopwatch_, cpu_, device, std::move(make));
 }
 
 template <int Dim>
 void Simulation<Dim>::begin() {
   clock_ = {};
   sums_ = {};
+  left_text_.clear();
   cpu_.begin();
   start_columns(setup_, slide_->particles, base_);
   start_budget();

@@ -30,6 +30,7 @@ class Simulation {
   // terrain is a DEM. Throws UserError for a fixed step above a limit, and for insufficient memory, before any
   // allocation.
   explicit Simulation(const config::Case& parameters, const config::Site& site = {});
+  ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -129,6 +130,7 @@ class Simulation {
     THAWSLIDE_ASSERT(device_ == nullptr, "nodes are asked for, which {} keeps", device_->name());
     return cpu_.nodes();
   }
+  [[nodiscard]] const std::vector<std::uint64_t>& blocks_of_nodes() const { return cpu_.blocks_of_nodes(); }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const {
     return setup_.model.ground ? &slide_->ground : nullptr;
@@ -160,9 +162,6 @@ class Simulation {
   [[nodiscard]] const Solver<Dim>& solver() const { return device_ ? static_cast<const Solver<Dim>&>(*device_) : cpu_; }
   [[nodiscard]] band::SumsOfParticle<Dim> sums_of_particle() const;
   [[nodiscard]] FailureText<Dim> failure_text() const { return {setup_, *slide_, sum_over_body()}; }
-  // Throws RunError with the time and the step.
-  [[noreturn]] void fail(const std::string& why) const;
-
   void seed();
   // Initializes everything that follows from positions and stress at t = 0.
   void begin();
@@ -175,7 +174,7 @@ class Simulation {
   void monitor();
   void stop_for_or_remove_particles();
   void stop_if_invalid() const;
-  void remove(const Marks& marks);
+  void remove_marked();
   void entrain_bed();
   void split_stretched();
 
@@ -191,6 +190,7 @@ class Simulation {
   RunMonitor monitor_;
   Removed removed_;
   mpm::InvalidParticle invalid_;
+  Marks marks_;  // of the particles to be removed after a step
   std::string left_text_;
   std::vector<BodyAtStart> bodies_at_start_;
 };

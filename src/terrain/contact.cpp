@@ -234,7 +234,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
         base[BaseLayout::load] =
             known.bend * approach(model.distance_check,
                                   clearance_along_normal(known.normal, nodes.near_ground(b, k)[NearGround::clearance]),
-                                  dt, state.mass, double(state.momentum.dot(known.normal)));
+                                  dt, state.mass, state.momentum.dot(known.normal));
         if (base[BaseLayout::load] > 0.0) {
           loaded[b] = 1;
         }

@@ -203,7 +203,7 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>
   state.momentum += total - to_bed;
   constrain(walls, state);  // walls and frames take precedence over the ground
   const Vector<double, Dim> middle = (state.old_momentum + state.momentum) / (2.0 * state.mass);
-  const double slip_speed = max(0.0, double(middle.dot(along)));
+  const double slip_speed = max(0.0, middle.dot(along));
   const double friction_work = impulse.slides ? impulse.tangential * slip_speed : 0.0;
   if (entrain.entrained > 0.0) {
     bed.record_work(to_bed.dot(middle));
@@ -268,7 +268,7 @@ THAWSLIDE_HD double map_back(const Walls& walls, const GroundOfMappedBack<Dim>& 
   Vector<double, Dim> momentum = mpm::vector_at<Dim>(mapped, 0);
   if (ground.touching) {
     const Vector<double, Dim>& normal = *ground.normal;
-    momentum -= approach(ground.distance_check, ground.clearance, dt, mass, double(momentum.dot(normal))) * normal;
+    momentum -= approach(ground.distance_check, ground.clearance, dt, mass, momentum.dot(normal)) * normal;
   }
   walls.apply(mass, momentum);
   const Vector<double, Dim> velocity = momentum * (1.0 / mass);

@@ -22,8 +22,8 @@ from thawslide.number_text import number_text
 from thawslide.report_page import figures_of, make_report
 
 ON_MAP = [
-    "extent_maps", "animation", "slide_speed", "slide_thickness", "slide_temperature", "cross_sections", "impact_maps",
-    "probes", "motion", "force", "band", "energy",
+    "extent_maps", "view", "animation", "slide_speed", "slide_thickness", "slide_temperature", "cross_sections",
+    "impact_maps", "probes", "motion", "force", "band", "energy",
 ]  # fmt: skip
 
 

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/raster_sampling.hpp"
-#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
 

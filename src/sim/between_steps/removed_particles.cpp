@@ -92,13 +92,14 @@ void undo_not_finite(Budget<Dim> before, Budget<Dim>& budget) {
 }  // namespace
 
 template <int Dim>
-Marks marks_of_invalid(const config::Guards& guards, const mpm::Particles<Dim>& particles,
-                       mpm::InvalidParticle& invalid) {
+void mark_invalid(const config::Guards& guards, const mpm::Particles<Dim>& particles, Marks& marks,
+                  mpm::InvalidParticle& invalid) {
+  marks.clear();
   if (invalid.id < 0 || mark_of(invalid.fault, guards) == stays) {
-    return {};
+    return;
   }
   invalid = {};
-  Marks marks(particles.size(), stays);
+  marks.assign(particles.size(), stays);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const mpm::Fault fault = fault_of(particles, p, guards);
     marks[p] = mark_of(fault, guards);
@@ -106,7 +107,6 @@ Marks marks_of_invalid(const config::Guards& guards, const mpm::Particles<Dim>& 
       invalid.record(particles.id(p), fault);
     }
   }
-  return marks;
 }
 
 template <int Dim>
@@ -187,7 +187,7 @@ band::BodySums<Dim> sum_over_marked(const Slide<Dim>& slide, const band::SumsOfP
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
-  template Marks marks_of_invalid<Dim>(const config::Guards&, const mpm::Particles<Dim>&, mpm::InvalidParticle&);    \
+  template void mark_invalid<Dim>(const config::Guards&, const mpm::Particles<Dim>&, Marks&, mpm::InvalidParticle&); \
   template void mark_left<Dim>(const Setup<Dim>&, const Slide<Dim>&, bool, Marks&, mpm::InvalidParticle&);           \
   template void add_removed<Dim>(const Setup<Dim>&, const Slide<Dim>&, const Marks&, const Budget<Dim>&,             \
                                  const band::SumsOfParticle<Dim>&, Budget<Dim>&);                                    \

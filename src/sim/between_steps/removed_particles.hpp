@@ -38,11 +38,13 @@ struct Removed {
 // Reason for removal of a particle.
 enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_inverted };
 
-// Marks of all particles that are to be removed; empty if none is. Sets `invalid` to a particle that must end the run.
 using Marks = std::vector<std::uint8_t>;
+
+// Marks the invalid particles that are to be removed; no marks if there is none. Sets `invalid` to a particle that must
+// end the run.
 template <int Dim>
-[[nodiscard]] Marks marks_of_invalid(const config::Guards& guards, const mpm::Particles<Dim>& particles,
-                                     mpm::InvalidParticle& invalid);
+void mark_invalid(const config::Guards& guards, const mpm::Particles<Dim>& particles, Marks& marks,
+                  mpm::InvalidParticle& invalid);
 // Adds the particles that have left. all_tiles: also checks tiles whose own block is above known ground.
 template <int Dim>
 void mark_left(const Setup<Dim>& setup, const Slide<Dim>& slide, bool all_tiles, Marks& marks,

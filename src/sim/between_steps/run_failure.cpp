@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "config/case_proposal.hpp"
@@ -125,6 +126,19 @@ std::string compressed_pores(const mpm::Particles<Dim>& particles) {
 }
 
 }  // namespace
+
+void fail_run(const Clock& clock, const std::string& why) {
+  throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}", clock.time, clock.step_number, why));
+}
+
+template <int Dim>
+std::string text_of_left_slide(const Clock& clock, double mass) {
+  return fmt::format(
+      "the whole slide has left the domain or the known terrain at t = {:.6g} s (step {}). mass_kg still includes the "
+      "last {} kg{}, which left in this step. Specify a larger domain ([grid] min and max) or a larger DEM, and repeat "
+      "the run.",
+      clock.time, clock.step_number, rounded_text(mass, 3), Dim == 2 ? " per m of width" : "");
+}
 
 template <int Dim>
 Vector<double, Dim> position_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles, std::size_t p) {
@@ -279,6 +293,14 @@ std::string FailureText<Dim>::of_particle(const mpm::InvalidParticle& invalid) c
 }
 
 template <int Dim>
+std::string FailureText<Dim>::of_removed(const std::string& removed, double fraction,
+                                         const mpm::InvalidParticle& last) const {
+  return fmt::format(
+      "[guards] has removed {}, {:.3g} % of all mass, where guards.removed_mass allows {:g} %; among the last: {}",
+      removed, 100.0 * fraction, 100.0 * setup_.parameters.guards.removed_mass, of_particle(last));
+}
+
+template <int Dim>
 std::string FailureText<Dim>::of_energy(double energy, double fraction) const {
   const std::size_t fastest = fastest_particle(particles_);
   const std::string cause =
@@ -296,6 +318,7 @@ std::string FailureText<Dim>::of_energy(double energy, double fraction) const {
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                           \
+  template std::string text_of_left_slide<Dim>(const Clock&, double);                                        \
   template Vector<double, Dim> position_of<Dim>(const Model<Dim>&, const mpm::Particles<Dim>&, std::size_t); \
   template class FailureText<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -6,6 +6,7 @@
 #include "band/body_sums.hpp"
 #include "mpm/kernel_totals.hpp"
 #include "sim/setup/setup.hpp"
+#include "sim/solver/clock.hpp"
 #include "sim/solver/slide.hpp"
 
 namespace thawslide::sim {
@@ -14,6 +15,13 @@ namespace thawslide::sim {
 template <int Dim>
 [[nodiscard]] Vector<double, Dim> position_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles,
                                               std::size_t p);
+
+// Throws RunError with the time and the step.
+[[noreturn]] void fail_run(const Clock& clock, const std::string& why);
+
+// Message of a run whose last particles have left. mass: of these [kg].
+template <int Dim>
+[[nodiscard]] std::string text_of_left_slide(const Clock& clock, double mass);
 
 template <int Dim>
 class FailureText {
@@ -25,6 +33,9 @@ class FailureText {
   // "particle 12 of body 'slide' at (1, 2, 3) m". p: index in memory.
   [[nodiscard]] std::string name_of(std::size_t p) const;
   [[nodiscard]] std::string of_particle(const mpm::InvalidParticle& invalid) const;
+  // removed: text on all removed particles. fraction: of the mass. last: one of the particles removed last.
+  [[nodiscard]] std::string of_removed(const std::string& removed, double fraction,
+                                       const mpm::InvalidParticle& last) const;
   // Growth of energy [J], and as a fraction of all energy.
   [[nodiscard]] std::string of_energy(double energy, double fraction) const;
 

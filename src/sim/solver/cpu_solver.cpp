@@ -1,6 +1,7 @@
 #include "sim/solver/cpu_solver.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "band/averages.hpp"
 #include "band/heat.hpp"
@@ -35,12 +36,17 @@ StepSums<Dim> CpuSolver<Dim>::step(double dt, const terrain::StrengthLaw* streng
   StepSums<Dim> sums;
   stopwatch_.time("find_cells", [&] { find_cells(); });
   stopwatch_.time("average_band_on_grid", [&] {
-    sums.band_rescale = model.band.rescaling_mixes ? rescale_band() : 0.0;  // changes temperatures
+    if (model.band.rescaling_mixes) {
+      rescale_band();  // changes temperatures
+    }
     average_band_on_grid(model.contact.reads_mass || strength != nullptr);
   });
   if (setup_.parameters.mechanics.enabled) {
     double force_of_walls = 0;
-    stopwatch_.time("momentum_to_grid", [&] { force_of_walls = momentum_to_grid(); });
+    stopwatch_.time("momentum_to_grid", [&] {
+      force_of_walls = momentum_to_grid();
+      blocks_of_nodes_ = slide_.grid.blocks();
+    });
     stopwatch_.time("resolve_contact", [&] {
       sums.contact = resolve_contact(dt, strength);
       sums.contact.force[0] -= force_of_walls;  // the walls are part of the ground
@@ -51,7 +57,9 @@ StepSums<Dim> CpuSolver<Dim>::step(double dt, const terrain::StrengthLaw* streng
     });
   }
   stopwatch_.time("conduct_heat", [&] {
-    sums.band_rescale = model.band.rescaling_mixes ? sums.band_rescale : rescale_band();
+    if (!model.band.rescaling_mixes) {
+      rescale_band();
+    }
     sums.heat = conduct_heat(dt);
   });
   stopwatch_.time("drain_pore_pressure", [&] {
@@ -60,11 +68,13 @@ StepSums<Dim> CpuSolver<Dim>::step(double dt, const terrain::StrengthLaw* streng
     sums.vented = loss.vented;
   });
   stopwatch_.time("update_positions", [&] { sums.invalid = update_positions(); });
+  sums.band_rescale = std::exchange(rescaling_heat_, 0.0);
   return sums;
 }
 
 template <int Dim>
 void CpuSolver<Dim>::find_cells() {
+  blocks_of_nodes_.clear();
   slide_.locate(setup_.model);
   if (setup_.model.between_bodies.has_held) {
     slide_.grid.set_layers(layers_of_bodies(setup_.model, clock_.time));
@@ -147,15 +157,15 @@ void CpuSolver<Dim>::move_particles(double dt, StepSums<Dim>& sums) {
 }
 
 template <int Dim>
-double CpuSolver<Dim>::rescale_band() {
+void CpuSolver<Dim>::rescale_band() {
   const Model<Dim>& model = setup_.model;
   const double thickness = setup_.band_thickness(clock_.time);
   const bool depends_on_position = model.band.region != band::BandRegion::all || model.ground;
   if (model.contact.band_columns || !(depends_on_position || thickness != band_thickness_)) {
-    return 0.0;
+    return;
   }
   band_thickness_ = thickness;
-  return band::rescale_band(slide_.grid, model.band, thickness, slide_.particles);
+  rescaling_heat_ += band::rescale_band(slide_.grid, model.band, thickness, slide_.particles);
 }
 
 template <int Dim>

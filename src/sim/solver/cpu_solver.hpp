@@ -1,7 +1,9 @@
 // Time step on the CPU, by lanes of vector registers and threads.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "band/flow_depth.hpp"
 #include "band/pore_pressure.hpp"
@@ -28,8 +30,9 @@ class CpuSolver final : public Solver<Dim> {
   // Updates the grid, its layers and the ground at its nodes to the particles.
   void find_cells();
 
-  // Nodes of the last step.
+  // Nodes of the last step, and the keys of their blocks; no blocks before the first step with mechanics.
   [[nodiscard]] const mpm::Nodes<Dim>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<std::uint64_t>& blocks_of_nodes() const { return blocks_of_nodes_; }
 
   void start() override {}
   StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) override;
@@ -55,8 +58,7 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] mpm::InvalidParticle update_positions();
 
   void mark_band();
-  // Returns the heat added [J].
-  [[nodiscard]] double rescale_band();
+  void rescale_band();
   void update_flow_depth();
   // Updates the load on particles at memory index `first` and above: weight of the column above, normal to the ground.
   void update_normal_load(std::size_t first = 0);
@@ -73,7 +75,9 @@ class CpuSolver final : public Solver<Dim> {
   mpm::Nodes<Dim> nodes_;
   band::FlowDepth<Dim> flow_depth_;
   mpm::BodyContact<Dim> body_contact_;
+  std::vector<std::uint64_t> blocks_of_nodes_;
   double band_thickness_ = -1.0;  // of the last scaling [m]
+  double rescaling_heat_ = 0;     // added since the last complete step [J]
 };
 
 }  // namespace thawslide::sim

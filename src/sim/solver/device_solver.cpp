@@ -44,11 +44,13 @@ struct DeviceSolver<Dim>::Session {
 
 template <int Dim>
 DeviceSolver<Dim>::DeviceSolver(const Setup<Dim>& setup, Slide<Dim>& slide, Base<Dim>& base, const Clock& clock,
-                                const Solver<Dim>& host, std::string name, device::SolverFactory<Dim> make)
+                                Stopwatch& stopwatch, const Solver<Dim>& host, std::string name,
+                                device::SolverFactory<Dim> make)
     : setup_(setup),
       slide_(slide),
       base_(base),
       clock_(clock),
+      stopwatch_(stopwatch),
       host_(host),
       name_(std::move(name)),
       make_(std::move(make)),
@@ -96,12 +98,14 @@ StepSums<Dim> DeviceSolver<Dim>::step(double dt, const terrain::StrengthLaw* str
   start();
   Session& session = *session_;
   session.dt = dt;
-  call([&] {
-    if (slide_.sorting_interval > 0 && clock_.step_number % slide_.sorting_interval == 0) {
-      session.solver->sort_in_memory();
-    }
-    session.host_particles_valid = session.host_grid_valid = false;
-    session.sums = session.solver->step(clock_.time, dt);
+  stopwatch_.time("step_on_device", [&] {
+    call([&] {
+      if (slide_.sorting_interval > 0 && clock_.step_number % slide_.sorting_interval == 0) {
+        session.solver->sort_in_memory();
+      }
+      session.host_particles_valid = session.host_grid_valid = false;
+      session.sums = session.solver->step(clock_.time, dt);
+    });
   });
   return session.sums;
 }

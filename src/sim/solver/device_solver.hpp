@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/stopwatch.hpp"
 #include "device/solver_factory.hpp"
 #include "sim/solver/base.hpp"
 #include "sim/solver/clock.hpp"
@@ -17,8 +18,8 @@ template <int Dim>
 class DeviceSolver final : public Solver<Dim> {
  public:
   // host: reduces the particles while they are in host memory. All references must outlive the solver.
-  DeviceSolver(const Setup<Dim>& setup, Slide<Dim>& slide, Base<Dim>& base, const Clock& clock, const Solver<Dim>& host,
-               std::string name, device::SolverFactory<Dim> make);
+  DeviceSolver(const Setup<Dim>& setup, Slide<Dim>& slide, Base<Dim>& base, const Clock& clock, Stopwatch& stopwatch,
+               const Solver<Dim>& host, std::string name, device::SolverFactory<Dim> make);
   ~DeviceSolver() override;
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -49,6 +50,7 @@ class DeviceSolver final : public Solver<Dim> {
   Slide<Dim>& slide_;
   Base<Dim>& base_;
   const Clock& clock_;
+  Stopwatch& stopwatch_;
   const Solver<Dim>& host_;
   std::string name_;
   device::SolverFactory<Dim> make_;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
+#include "base/error.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/sparse_grid.hpp"
 #include "sim/setup/model.hpp"

@@ -18,6 +18,7 @@ namespace thawslide::sim {
 
 using band::BodySums, device::StepSums;
 
+// Functions that are const may update the copy of the slide in host memory, which changes no result.
 template <int Dim>
 class Solver {
  public:
