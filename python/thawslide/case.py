@@ -113,8 +113,10 @@ class Case:
 
         """
         with tempfile.TemporaryDirectory(prefix="thawslide-") as folder:
-            (Path(folder) / "case.toml").write_text(text, encoding="utf-8")
-            return cls(folder, changes)
+            file = Path(folder) / "case" / "case.toml"  # the folder names the case
+            file.parent.mkdir()
+            file.write_text(text, encoding="utf-8")
+            return cls(file, changes)
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Mapping[str, object]]) -> Case:
@@ -144,6 +146,9 @@ class Case:
         True
 
         """
+        for table, part in values.items():
+            if not isinstance(part, Mapping):
+                raise TypeError(f"{table} is {part!r}, and not a table. Give a dictionary of its keys.")
         changes = {key: value for table, part in values.items() for key, value in _keys(table, part)}
         return cls.from_text("[case]\n", changes)
 

@@ -33,6 +33,9 @@ class Logger:
     """
 
     def __init__(self, **quantities: Callable[[Simulation], float]) -> None:
+        reserved = sorted({"time_s", "step"} & set(quantities))
+        if reserved:
+            raise ValueError(f"the logger itself records {' and '.join(reserved)}. Use another name.")
         self._quantities = quantities
         self._rows: list[dict[str, float]] = []
 

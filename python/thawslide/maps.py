@@ -290,6 +290,14 @@ def _overlap(low: float, high: float, start: float, cell: float, count: int) -> 
     return slice(first, last)
 
 
+def named_system(text: str) -> tuple[str, str]:
+    """Return name and well-known text of a coordinate reference system given as text, "" if it is unknown."""
+    if not text:
+        return "", ""
+    crs = rasterio.crs.CRS.from_user_input(text)
+    return _crs_words(crs), crs.to_wkt()
+
+
 def _crs_words(crs: rasterio.crs.CRS | None) -> str:
     """Return name and number of a reference system, e.g. "MGI / Austria GK West (EPSG:31254)"."""
     if not crs:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from thawslide import _core
 from thawslide.basal_law import BasalLaw, CheckedLaw
 from thawslide.case import Case, toml_text
-from thawslide.maps import Grid, Map
+from thawslide.maps import Grid, Map, named_system
 from thawslide.units import cf_unit
 
 __all__ = ["Field", "LiveMaps", "Nodes", "Simulation"]
@@ -62,7 +62,7 @@ class LiveMaps(Mapping[str, Map]):
         values, x, y, cell_x, cell_y, crs = self._core.map(name)
         numbers = cast(NDArray[np.float64], values)
         rows, columns = numbers.shape
-        return Map(Grid(x, y, cell_x, cell_y, columns, rows), numbers, kind.unit, kind.text, crs, crs)
+        return Map(Grid(x, y, cell_x, cell_y, columns, rows), numbers, kind.unit, kind.text, *named_system(crs))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._kinds)
@@ -297,7 +297,8 @@ class Simulation:
         next_call = self.time
         while self.time < target and not self.is_done:
             if every is not None:
-                next_call = max(next_call + every, self.time)
+                while next_call <= self.time:
+                    next_call += every
                 self._advance(min(target, next_call * (1.0 - _ROUND_OFF)), sys.maxsize)
             else:
                 self._advance(target, every_steps or 1)

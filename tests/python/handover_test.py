@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rasterio
+from conftest import update_facts
 from map_runs import (
     CELL,
     COLUMNS,
@@ -22,6 +23,7 @@ from map_runs import (
     slab,
     write_map,
     write_map_run,
+    write_particles,
 )  # fmt: skip
 
 from thawslide import Run
@@ -119,6 +121,37 @@ def test_moving_bottom_is_the_change_of_thickness(run: Run, tmp_path: Path) -> N
     assert len(times) == 6 and grid.columns == COLUMNS
 
 
+def test_a_slide_at_rest_ends_the_moving_bottom_between_two_intervals(run: Run, tmp_path: Path) -> None:
+    for number, time in enumerate((0.0, 4.0, 8.0, 10.0)):
+        write_particles(run.folder / "snapshots" / f"{number:06d}.vtkhdf", time)
+    for number in (4, 5):
+        (run.folder / "snapshots" / f"{number:06d}.vtkhdf").unlink()
+    _, times = write_dtopo(Run(run.folder), tmp_path / "slide.tt3")
+    np.testing.assert_array_equal(times, [0.0, 4.0, 8.0, 12.0])
+    update_facts(run.folder, at_rest=False)
+    moving = Run(run.folder)
+    with pytest.raises(ReportError, match="snapshots at unequal intervals"):
+        write_dtopo(moving, tmp_path / "slide.tt3")
+    np.testing.assert_array_equal(moving.times, [0.0, 4.0, 8.0, 10.0])
+
+
+def test_a_dem_in_another_system_is_refused(run: Run, tmp_path: Path) -> None:
+    x, y = centres()
+    write_map(tmp_path / "before.tif", ground(x, y), crs="EPSG:31254")
+    with pytest.raises(ReportError, match="another coordinate reference system than the run"):
+        terrain_after(run, tmp_path / "before.tif")
+
+
+def test_a_dem_of_a_part_of_the_deposit_has_a_note(run: Run, tmp_path: Path) -> None:
+    x, y = centres()
+    heights = ground(x, y)
+    heights[:, 30:] = np.nan  # the deposit begins at 260 m, the DEM ends at 300 m
+    write_map(tmp_path / "before.tif", heights)
+    after = terrain_after(run, tmp_path / "before.tif")
+    assert after.notes == ["note: the DEM covers 50 % of the deposit."]
+    assert after.deposit == pytest.approx(0.5 * VOLUME)
+
+
 def test_one_snapshot_is_no_moving_bottom(tmp_path: Path) -> None:
     write_map_run(tmp_path / "run", snapshots=1)
     with pytest.raises(ReportError, match="a moving bottom needs two or more"):
@@ -127,10 +160,10 @@ def test_one_snapshot_is_no_moving_bottom(tmp_path: Path) -> None:
 
 
 def test_hydrographs_are_those_of_the_lines(run: Run, tmp_path: Path) -> None:
-    (path,) = write_hydrographs(run, tmp_path / "flow")
+    (path,) = write_hydrographs(hydrographs(run), tmp_path / "flow")
     assert path.name == "weir.csv"
     rows = list(csv.reader(path.open()))
-    assert rows == [["time_s", "discharge_m3_s"], ["0", "0"], ["5", "-6480"], ["10", "0"]]
+    assert rows == [["time_s", "discharge_m3_s"], ["0.0", "0.0"], ["5.0", "-6480.0"], ["10.0", "0.0"]]
     (weir,) = hydrographs(run)
     assert weir.volume == -6480.0 * 5.0 and weir.peak == (0.0, 0.0)
 
@@ -185,4 +218,4 @@ def test_commands_write_their_files(run: Run, tmp_path: Path, capsys: pytest.Cap
     assert printed[1].split() == ["hut", "760", "8.3", "8.3", "6", "20"]
     assert printed[2].split() == ["barn", "not", "reached"]
     rows = list(csv.reader((run.folder / "assets.csv").open()))
-    assert rows[1][:2] == ["hut", "760"] and rows[2] == ["barn", "0", "", "", "0", "0"]
+    assert rows[1][:2] == ["hut", "760.0"] and rows[2] == ["barn", "0.0", "", "", "0.0", "0.0"]

@@ -2,7 +2,16 @@
 
 from thawslide.handover.assets import Asset, assets_hit
 from thawslide.handover.dtopo import write_dtopo
-from thawslide.handover.hydrographs import write_hydrographs
+from thawslide.handover.hydrographs import Hydrograph, hydrographs, write_hydrographs
 from thawslide.handover.terrain import TerrainAfter, terrain_after
 
-__all__ = ["Asset", "TerrainAfter", "assets_hit", "terrain_after", "write_dtopo", "write_hydrographs"]
+__all__ = [
+    "Asset",
+    "Hydrograph",
+    "TerrainAfter",
+    "assets_hit",
+    "hydrographs",
+    "terrain_after",
+    "write_dtopo",
+    "write_hydrographs",
+]

@@ -70,17 +70,22 @@ def write_assets(assets: Sequence[Asset], path: Path) -> None:
         rows.writerow([each.name for each in fields(Asset)])
         for asset in assets:
             name, *values = astuple(asset)
-            rows.writerow([name, *(f"{value:.5g}" if math.isfinite(value) else "" for value in values)])
+            rows.writerow([name, *(repr(value) if math.isfinite(value) else "" for value in values)])
 
 
 def _cells_of_polygon(grid: Grid, rings: Sequence[Numbers], name: str) -> NDArray[np.bool_]:
-    west, _, _, north = grid.box
+    west, east, south, north = grid.box
     shape = {"type": "Polygon", "coordinates": [ring.tolist() for ring in rings]}
     transform = from_origin(west, north, grid.cell_x, grid.cell_y)
     size = (grid.rows, grid.columns)
     touched = rasterize([shape], out_shape=size, transform=transform, all_touched=True, dtype="uint8")
-    if not touched.any():
-        raise ReportError(f"{name}: outside the maps of the run. Correct its coordinates, or omit it.")
+    corners = np.concatenate(list(rings))
+    (low_x, low_y), (high_x, high_y) = corners.min(axis=0), corners.max(axis=0)
+    if not touched.any() or low_x < west or high_x > east or low_y < south or high_y > north:
+        raise ReportError(
+            f"{name}: not within the maps of the run (found x = {low_x:.10g} to {high_x:.10g}, y = {low_y:.10g} to "
+            f"{high_y:.10g}; allowed {west:.10g} to {east:.10g}, {south:.10g} to {north:.10g}). Correct or omit it."
+        )
     return np.asarray(touched[::-1], dtype=bool)
 
 

@@ -74,20 +74,22 @@ def export(arguments: Sequence[str] | None = None) -> int:
         if given.dtopo is None and given.hydrographs is None:
             raise ReportError("nothing to export: specify --dtopo FILE or --hydrographs FOLDER.")
         run = Run(given.run)
+        lines = hydrographs(run) if given.hydrographs is not None else []
+        files = [given.hydrographs / f"{each.name}.csv" for each in lines]
+        for path in [*files, *([given.dtopo] if given.dtopo is not None else [])]:
+            _require_new(path, given.overwrite)
         if given.dtopo is not None:
-            _require_new(given.dtopo, given.overwrite)
             grid, times = write_dtopo(run, given.dtopo)
             print_line(
                 f"dtopo: {given.dtopo} ({grid.columns} x {grid.rows} points, {len(times)} times from {times[0]:g} to "
                 f"{times[-1]:g} s)"
             )
-        if given.hydrographs is not None:
-            for each in hydrographs(run):
-                _require_new(given.hydrographs / f"{each.name}.csv", given.overwrite)
-            for path, each in zip(write_hydrographs(run, given.hydrographs), hydrographs(run), strict=True):
-                flow, time = each.peak
-                peak = f"peak {plain_text(flow)} m3/s at {time:g} s"
-                print_line(f"hydrograph: {path} ({peak}; {plain_text(each.volume)} m3 in all)")
+        if lines:
+            write_hydrographs(lines, given.hydrographs)
+        for path, each in zip(files, lines, strict=True):
+            flow, time = each.peak
+            peak = f"peak {plain_text(flow)} m3/s at {time:g} s"
+            print_line(f"hydrograph: {path} ({peak}; {plain_text(each.volume)} m3 in total)")
 
     return _ended("export", write)
 

@@ -22,8 +22,7 @@ def write_dtopo(run: Run, path: Path) -> tuple[Grid, Numbers]:
     """Write the moving bottom of a 3D run on the snapshots' times; return its grid and times [s].
 
     GeoClaw reads times at equal intervals: NotInRunError without maps, ReportError for fewer than two snapshots or
-    unequal intervals. A last snapshot at another interval (the end at rest) is moved to the next multiple: nothing
-    moves any more.
+    unequal intervals. The last snapshot of a slide at rest is moved to the next multiple of the interval.
     """
     grid = run.maps["max_thickness"].grid
     width = float(run.section("grid")["cell"])
@@ -36,23 +35,22 @@ def write_dtopo(run: Run, path: Path) -> tuple[Grid, Numbers]:
             thickness = np.asarray(gather(grid, shot, width).thickness.values)
             at_start = thickness if at_start is None else at_start
             for row in (thickness - at_start)[::-1]:  # from north to south
-                file.write(" ".join(f"{value:.4g}" for value in row) + "\n")
+                file.write(" ".join(f"{value:.6g}" for value in row) + "\n")
     return grid, times
 
 
 def _equal_times(run: Run) -> Numbers:
-    times = np.asarray(run.times, dtype=np.float64)
+    times = np.array(run.times, dtype=np.float64)
     if len(times) < 2:
         raise ReportError(f"{run.folder}: {len(times)} snapshot, and a moving bottom needs two or more. Repeat it.")
     step = times[1] - times[0]
     equal = times[0] + step * np.arange(len(times))
-    if len(times) > 2 and equal[-2] < times[-1] <= equal[-1]:
-        equal[-1] = max(equal[-1], times[-1])
-        times[-1] = equal[-1]
+    if run.is_at_rest and len(times) > 2 and equal[-2] < times[-1] < equal[-1]:
+        times[-1] = equal[-1]  # nothing moves any more
     if not np.allclose(times, equal, rtol=0.0, atol=1e-6 * step):
         raise ReportError(
-            f"{run.folder}: snapshots at unequal intervals (found {', '.join(f'{time:g}' for time in times[:5])} ...), "
-            "which GeoClaw does not read. Repeat the run with one time.output_interval."
+            f"{run.folder}: snapshots at unequal intervals (found {', '.join(f'{time:g}' for time in times[-3:])} at "
+            "the end), which GeoClaw does not read. Run the case to rest, or to a multiple of time.output_interval."
         )
     return np.asarray(equal)
 

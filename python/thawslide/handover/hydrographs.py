@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,15 +50,15 @@ def hydrographs(run: Run) -> list[Hydrograph]:
     return found
 
 
-def write_hydrographs(run: Run, folder: Path) -> list[Path]:
+def write_hydrographs(found: Sequence[Hydrograph], folder: Path) -> list[Path]:
     """Write one file NAME.csv per line, with the columns time_s and discharge_m3_s, and return the files."""
     folder.mkdir(parents=True, exist_ok=True)
     files = []
-    for each in hydrographs(run):
+    for each in found:
         path = folder / f"{each.name}.csv"
         with atomic_file(path) as part, part.open("w", encoding="utf-8") as file:
             rows = csv.writer(file, lineterminator="\n")
             rows.writerow(["time_s", "discharge_m3_s"])
-            rows.writerows([f"{time:.6g}", f"{flow:.6g}"] for time, flow in zip(each.time, each.discharge, strict=True))
+            rows.writerows(zip(each.time.tolist(), each.discharge.tolist(), strict=True))
         files.append(path)
     return files

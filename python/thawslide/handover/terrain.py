@@ -13,6 +13,7 @@ from thawslide.errors import ReportError
 from thawslide.map_files import read_raster, write_raster
 from thawslide.run_folder import Run
 
+_COVERED = 0.99  # of the deposit: less has a note
 DESCRIPTION = "elevation of the terrain after the event"
 
 
@@ -48,6 +49,7 @@ def terrain_after(run: Run, dem: Path | None = None) -> TerrainAfter:
     area = raster.cell_x * raster.cell_y
     removed = 0.0
     if dem is not None:
+        _require_system(dem, raster.crs, deposit.wkt)
         _require_overlap(dem, x, y, deposit.grid.box)
         if _is_cut(run):
             release = run.maps["release"]
@@ -55,11 +57,16 @@ def terrain_after(run: Run, dem: Path | None = None) -> TerrainAfter:
             taken = np.nan_to_num(release.at(x[None, :], y[:, None]))
             heights -= taken
             removed = float(np.sum(taken)) * area
-    added = np.nan_to_num(deposit.at(x[None, :], y[:, None]))
+    added = np.where(np.isfinite(heights), np.nan_to_num(deposit.at(x[None, :], y[:, None])), 0.0)
     heights += added
+    on_dem, on_map = float(np.sum(added)) * area, deposit.volume()
+    if on_dem < _COVERED * on_map:
+        notes = [*notes, f"note: the DEM covers {100.0 * on_dem / on_map:.0f} % of the deposit."]
+    if not run.is_at_rest:
+        notes = [*notes, f"note: the slide still moves at {run.last_time:g} s, the end of the run."]
     if run.section("bed").get("law", "none") != "none":
         notes = [*notes, "note: the run eroded its bed; the terrain does not include the eroded depth."]
-    return TerrainAfter(raster, heights, float(np.sum(added)) * area, deposit.volume(), removed, notes)
+    return TerrainAfter(raster, heights, on_dem, on_map, removed, notes)
 
 
 def _is_cut(run: Run) -> bool:
@@ -71,6 +78,14 @@ def _is_cut(run: Run) -> bool:
             "the release contains them together. Omit --dem to use the terrain of the run."
         )
     return placements == {"cut"}
+
+
+def _require_system(dem: Path, own: str, of_run: str) -> None:
+    if own and of_run and not _core.is_same_system(own, of_run):
+        raise ReportError(
+            f"--dem {dem}: another coordinate reference system than the run (found {own}). Use a DEM in that of the "
+            "run."
+        )
 
 
 def _require_overlap(dem: Path, x: Numbers, y: Numbers, box: tuple[float, float, float, float]) -> None:
