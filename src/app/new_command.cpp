@@ -217,14 +217,25 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
       rounded_text(cost.steps), run::text_of(cost), others);
 }
 
-// Friction angle above which the release would not have failed without cohesion [degrees]: that of the rigid block, or
-// the slope below the release if the block has no path.
-double steepest_friction(const fs::path& folder, const Raster& ground, const Raster& thickness) {
+// Base by the rigid block, or nothing if it has no path.
+std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
   try {
-    return run::equilibrium_friction(config::read_case(folder));
+    return run::propose_base(config::read_case(folder));
   } catch (const UserError&) {
-    return std::atan(config::slope_below(ground, thickness)) * 180.0 / std::numbers::pi;
+    return {};
   }
+}
+
+std::string base_text(const config::ProposedBase& base) {
+  std::string text =
+      fmt::format("base:        a band of {:.1f} m, which a rigid block without pore pressure heats to {:.0f} C",
+                  base.thickness, base.temperature);
+  if (base.missing_cohesion > 0.0) {
+    text +=
+        fmt::format("\n             safety factor {:.2g} at the start: {} Pa of cohesion would have held the release",
+                    base.safety_factor, rounded_text(base.missing_cohesion, 2));
+  }
+  return text + "\n";
 }
 
 // Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
@@ -291,8 +302,13 @@ int make_new_case(const NewOptions& options) {
   write_cropped_dem(folder / input.dem_file, site, proposal, quick);
   copy_release(folder, trial);
   write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
-  write_file_atomically(folder / "sweep.toml",
-                        config::sweep_text(proposal.thickness, steepest_friction(folder, ground, thickness), quick));
+  input.base = base_by_block(folder);
+  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+  config::ProposedBase base = input.base.value_or(config::ProposedBase());
+  if (!input.base) {
+    base.friction = std::atan(config::slope_below(ground, thickness)) * 180.0 / std::numbers::pi;
+  }
+  write_file_atomically(folder / "sweep.toml", config::sweep_text(proposal.thickness, base, quick));
   const std::optional<run::RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
@@ -303,6 +319,9 @@ int make_new_case(const NewOptions& options) {
   } else {
     fmt::print("warning: {}: the run fails in its first steps. `thawslide check` gives the reason\n",
                (folder / "case.toml").string());
+  }
+  if (input.base) {
+    fmt::print("{}", base_text(*input.base));
   }
   config::BodyOnCells body = config::release_on_cells(proposal);
   body.has_maps = resolution.empty() || !cost;  // otherwise the text above states the cells for maps

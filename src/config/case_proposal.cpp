@@ -313,7 +313,7 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
       fmt::arg("confirmed", input.largest_volume > 0.0
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
-      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
+      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text(input.base)),
       fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
       fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
       fmt::arg("filter", number_text(input.filter)),
@@ -351,8 +351,22 @@ porosity = 0.375  # volume fraction of ice: all pores are full of it
                      proposal.particles_per_axis);
 }
 
-std::string physics_text() {
-  return R"([mechanics]
+std::string physics_text(const std::optional<ProposedBase>& base) {
+  std::string strength, band = "# The thinner the band, the sooner it melts.\n";
+  if (base && base->missing_cohesion > 0.0) {
+    strength = fmt::format(
+        "# With this friction the release could not have stood: its safety factor is {:.2g} at the start. {} Pa of\n"
+        "# cohesion (basal.cohesion, basal.slip_distance), lost since, would have held it.\n",
+        base->safety_factor, rounded_text(base->missing_cohesion, 2));
+  }
+  if (base) {
+    band = fmt::format(
+        "# {} of {} to {} m that a rigid block without pore pressure does not heat above {:g} C: {:.0f} C\n"
+        "# here (docs/theory/block-model.md). A thinner band melts sooner.\n",
+        base->temperature > ProposedBase::limit ? "There is no band" : "The thinnest band",
+        ProposedBase::candidates.back(), ProposedBase::candidates.front(), ProposedBase::limit, base->temperature);
+  }
+  return fmt::format(R"([mechanics]
 transfer = "apic"  # particle velocities without noise: the slide comes to rest, and swells less than with "flip"
 
 # Broken rock and ice.
@@ -368,13 +382,15 @@ hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays 
 # The base. Sliding heats a shear band, its ice melts, friction falls, and the meltwater carries part of the weight.
 [basal]
 friction = "lubricated"  # "constant": plain Coulomb friction
-friction_angle = 25.0  # degrees, before anything has melted: the most influential parameter
+{strength}friction_angle = 25.0  # degrees, before anything has melted: the most influential parameter
 heat_fraction = 0.9  # fraction of the friction work that heats the band
 
 [band]
 model = "columns"
-thickness = 0.2  # m; the thinner, the sooner it melts
-)";
+{band}thickness = {thickness:.1f}  # m
+)",
+                     fmt::arg("strength", strength), fmt::arg("band", band),
+                     fmt::arg("thickness", base ? base->thickness : ProposedBase().thickness));
 }
 
 }  // namespace thawslide::config

@@ -2,6 +2,8 @@
 // (section_proposal.hpp).
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "base/raster.hpp"
@@ -14,6 +16,19 @@ namespace thawslide::config {
 // Default reach angle, which determines the size of the domain [degrees].
 constexpr double usual_reach_angle = 8.0;
 
+// Base of a new case, chosen by the rigid block: the thinnest of these bands that friction without pore pressure does
+// not warm above the limit, as parts of a slide without pressure boil dry. The thickest one if none is.
+struct ProposedBase {
+  static constexpr std::array candidates{2.0, 1.0, 0.5, 0.2, 0.1};  // m
+  static constexpr double limit = 210.0;  // C: hotter bases are reported as not credible (run/step_warnings.cpp)
+
+  double thickness = 0.2;         // of the band [m]
+  double temperature = 0.0;       // maximum of the band along the path [C]
+  double friction = 0.0;          // friction angle of equilibrium at the start without cohesion [degrees]
+  double safety_factor = 1.0;     // sliding strength over driving traction at the start
+  double missing_cohesion = 0.0;  // for equilibrium at the start [Pa]; 0: none
+};
+
 // User input and facts from the files.
 struct ProposalInput {
   std::string title;
@@ -24,6 +39,7 @@ struct ProposalInput {
   double reach_angle = usual_reach_angle;  // degrees
   double largest_volume = 0.0;             // m3, confirmed; 0: default of the parameter
   double filter = 0.0;                     // m: standard deviation of the filter of the DEM
+  std::optional<ProposedBase> base;        // none if the block has no path
 };
 
 struct Proposal {
@@ -82,6 +98,6 @@ void propose_times(Proposal& proposal, double farthest);
 [[nodiscard]] std::string body_state_text(const Proposal& proposal);
 
 // Tables of transfer, material, base and band.
-[[nodiscard]] std::string physics_text();
+[[nodiscard]] std::string physics_text(const std::optional<ProposedBase>& base = {});
 
 }  // namespace thawslide::config

@@ -8,8 +8,8 @@
 
 namespace thawslide::config {
 
-// Sweep file with comments. thickness: of the release [m]. steepest: friction angle above which it would not have
-// failed without cohesion [degrees]. quick: proposal on cells of `quick`, if those of the case are others.
-[[nodiscard]] std::string sweep_text(double thickness, double steepest, const std::optional<Proposal>& quick);
+// Sweep file with comments. thickness: of the release [m]. base: of the case. quick: proposal on cells of `quick`, if
+// those of the case are others.
+[[nodiscard]] std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick);
 
 }  // namespace thawslide::config

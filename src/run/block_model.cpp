@@ -123,15 +123,35 @@ std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer
                                                              : block_on_profile(parameters, observer);
 }
 
-double equilibrium_friction(config::Case parameters) {
+config::ProposedBase propose_base(const config::Case& parameters) {
   class Silent : public Observer {
     void text(const std::string& /*line*/) override {}
     void error(const std::string& /*line*/) override {}
   } silent;
-  parameters.time.end = parameters.time.history_interval = 1e-3;  // s: the first row is enough
-  const sim::HistoryRow first = block_rows(parameters, silent).front();
-  return std::atan(value_of(first, "driving_traction_Pa") / value_of(first, "normal_pressure_Pa")) * 180.0 /
-         std::numbers::pi;
+  Warnings warnings(&silent);
+  sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
+  const double end = section.pit ? section.pit->along : section.site.profile.distance.back();
+  config::ProposedBase base;
+  section.parameters.mechanisms.pressurization = false;
+  for (const double thickness : config::ProposedBase::candidates) {
+    section.parameters.band.thickness.table = Table(thickness);
+    double warmest = -HUGE_VAL;
+    const auto rows = sim::run_block(section.parameters, section.site, section.valley_factor, section.start);
+    for (const sim::HistoryRow& row : rows) {
+      if (value_of(row, "front_position_m") <= end) {
+        warmest = std::max(warmest, value_of(row, "band_temperature_C"));
+      }
+    }
+    if (thickness != config::ProposedBase::candidates.front() && warmest > config::ProposedBase::limit) {
+      break;
+    }
+    const double driving = std::abs(value_of(rows.front(), "driving_traction_Pa"));
+    const double strength = value_of(rows.front(), "sliding_strength_Pa");
+    const double friction = std::atan(driving / value_of(rows.front(), "normal_pressure_Pa"));
+    base = {thickness, warmest, friction * 180.0 / std::numbers::pi, strength / driving,
+            std::max(0.0, driving - strength)};
+  }
+  return base;
 }
 
 }  // namespace thawslide::run

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/case.hpp"
+#include "config/case_proposal.hpp"
 #include "run/observer.hpp"
 #include "sim/records/history.hpp"
 
@@ -17,7 +18,7 @@ namespace thawslide::run {
 // the terrain ends the motion. Throws UserError.
 [[nodiscard]] std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer);
 
-// Friction angle with which the block is in equilibrium at the start without cohesion [degrees]. Throws UserError.
-[[nodiscard]] double equilibrium_friction(config::Case parameters);
+// Base of a new case on a DEM: the thinnest band that config::ProposedBase allows. Throws UserError.
+[[nodiscard]] config::ProposedBase propose_base(const config::Case& parameters);
 
 }  // namespace thawslide::run

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rasterio
-from conftest import Interrupted, Program, Ran, Slope, assert_identical, history, run_facts, sets
+from conftest import Interrupted, Program, Ran, Slope, assert_identical, columns_of, history, run_facts, sets
 from terrain_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
 
 
@@ -40,6 +40,40 @@ def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> No
     names = {path.stem for path in (run / "maps").glob("*.tif")}
     assert names == {*(f"max_{name}" for name in maxima), *others}
     assert (run / "maps" / "results.gpkg").is_file()
+
+
+@pytest.mark.parametrize(("degrees", "thickness"), [(35.0, 60.0), (12.0, 24.0)])
+def test_the_band_is_the_thinnest_that_friction_does_not_boil(
+    thawslide: Program, tmp_path: Path, slope: Slope, degrees: float, thickness: float
+) -> None:
+    slope(degrees=degrees, foot=800.0)
+    printed = slope.ok(thickness=thickness)
+    text = (tmp_path / "slide" / "case.toml").read_text()
+    proposed = tomllib.loads(text)["band"]["thickness"]
+
+    def block(band: float, *words: str) -> tuple[float, float]:
+        rows, dry = tmp_path / "block.csv", ["--set", "mechanisms.pressurization=false"]
+        words = (*sets(band__thickness=band), *dry, *words)
+        thawslide.ok("block", tmp_path / "slide", "--output", rows, *words)
+        columns = columns_of(rows)
+        strength, driving = (columns[name][0] for name in ("sliding_strength_Pa", "driving_traction_Pa"))
+        return float(columns["band_temperature_C"].max()), float(strength / driving)
+
+    series = [0.1, 0.2, 0.5, 1.0, 2.0]
+    warmest, safety = block(proposed)
+    stated = re.search(r"above 210 C: (-?[0-9]+) C\n# here", text)
+    assert stated and warmest == pytest.approx(float(stated[1]), abs=10.0) and warmest <= 210.0
+    assert f"a band of {proposed:.1f} m, which a rigid block without pore pressure heats to {stated[1]} C" in printed
+    assert (proposed > 0.1) == (degrees == 35.0)
+    for thinner in series[: series.index(proposed)][-1:]:
+        assert block(thinner)[0] > 210.0
+    found = re.search(r"safety factor ([0-9.]+) at the start: ([0-9,.]+) Pa of cohesion", printed)
+    assert (found is None) == (safety >= 1.0) == ("could not have stood" not in text)
+    if found:
+        assert safety == pytest.approx(float(found[1]), abs=0.006)
+        cohesion = float(found[2].replace(",", ""))
+        held = block(proposed, *sets(basal__cohesion=cohesion, basal__slip_distance=20.0))
+        assert held[1] == pytest.approx(1.0, abs=0.02)
 
 
 def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

@@ -16,7 +16,16 @@ double number(const toml::table& text, const std::string& kind, const std::strin
   return text["sweep"][kind][key][index].value<double>().value();
 }
 
-toml::table sweep_of(double thickness, double steepest) { return toml::parse(sweep_text(thickness, steepest, {})); }
+ProposedBase base_of(double band, double steepest) {
+  ProposedBase base;
+  base.thickness = band;
+  base.friction = steepest;
+  return base;
+}
+
+toml::table sweep_of(double thickness, double steepest, double band = 0.2) {
+  return toml::parse(sweep_text(thickness, base_of(band, steepest), {}));
+}
 
 TEST(SweepProposal, FrictionIsAtMostThatOfTheBlock) {
   const std::string key = "basal.friction_angle";
@@ -28,23 +37,32 @@ TEST(SweepProposal, FrictionIsAtMostThatOfTheBlock) {
 }
 
 TEST(SweepProposal, TheBandIsAtMostATwentiethOfTheSlide) {
-  for (const auto& [thickness, low, high] :
-       {std::array{90.0, 0.1, 1.0}, {20.0, 0.1, 1.0}, {4.0, 0.1, 0.2}, {1.0, 0.025, 0.05}}) {
+  for (const auto& [thickness, band, low, high] : {std::array{90.0, 0.2, 0.1, 1.0},
+                                                   {90.0, 2.0, 0.1, 2.0},
+                                                   {20.0, 2.0, 0.1, 1.0},
+                                                   {4.0, 0.2, 0.1, 0.2},
+                                                   {1.0, 0.2, 0.025, 0.05}}) {
+    const toml::table text = sweep_of(thickness, 30.0, band);
+    EXPECT_NEAR(number(text, "range", "band.thickness", 0), low, 1e-9);
+    EXPECT_NEAR(number(text, "range", "band.thickness", 1), high, 1e-9);
+  }
+}
+
+TEST(SweepProposal, MembersAreAsStiffAsTheirWeightNeeds) {
+  for (const auto& [thickness, modulus] : {std::array{2.0, 2e6}, {20.0, 2e7}, {21.0, 3e7}, {90.0, 9e7}, {300.0, 1e8}}) {
     const toml::table text = sweep_of(thickness, 30.0);
-    const double median = number(text, "lognormal", "band.thickness", 0);
-    const double spread = std::exp(3.0 * number(text, "lognormal", "band.thickness", 1));
-    EXPECT_NEAR(median / spread, low, 0.01 * low);
-    EXPECT_NEAR(median * spread, high, 0.01 * high);
+    const auto found = text["sweep"]["set"]["material.rock_ice.youngs_modulus"].value<double>();
+    EXPECT_NEAR(found.value(), modulus, 1e-6 * modulus) << thickness;
   }
 }
 
 TEST(SweepProposal, MembersHaveTheCellsOfQuick) {
-  EXPECT_FALSE(sweep_of(30.0, 30.0)["sweep"]["set"]);
+  EXPECT_FALSE(sweep_of(30.0, 30.0)["sweep"]["set"]["grid.cell"]);
   Proposal quick;
   quick.cell = 12.0;
   quick.min = {0.0, 24.0, 48.0};
   quick.max = {480.0, 504.0, 528.0};
-  const toml::table text = toml::parse(sweep_text(30.0, 30.0, quick));
+  const toml::table text = toml::parse(sweep_text(30.0, base_of(0.2, 30.0), quick));
   EXPECT_EQ(text["sweep"]["set"]["grid.cell"].value<double>(), 12.0);
   EXPECT_EQ(number(text, "set", "grid.min", 1), 24.0);
   EXPECT_EQ(number(text, "set", "grid.max", 2), 528.0);
