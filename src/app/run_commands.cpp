@@ -60,16 +60,23 @@ config::Case case_of(const CaseOptions& options) {
   if (!options.coarse) {
     return parameters;
   }
+  // A key of --set has its value, but for the cell, of which all others follow.
   std::vector<std::string> sets = options.sets;
   const std::set<std::string> given = config::keys_of(sets);
-  for (const std::string& change : config::coarse_changes(parameters)) {
-    const std::string key = change.substr(0, change.find('='));
-    if (given.count(key) > 0) {
-      throw UserError(fmt::format("--coarse sets {}: omit --coarse, or --set {}.", key, key));
-    }
-    sets.push_back(change);
+  if (given.count("grid.cell") > 0) {
+    throw UserError("--coarse sets grid.cell: omit --coarse, or --set grid.cell.");
   }
-  return config::read_case(options.file, sets);
+  for (const std::string& change : config::coarse_changes(parameters)) {
+    if (given.count(change.substr(0, change.find('='))) == 0) {
+      sets.push_back(change);
+    }
+  }
+  try {
+    return config::read_case(options.file, sets);
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("--coarse, which sets cells of {:g} m: {}", config::trial_factor * parameters.grid.cell,
+                                error.what()));
+  }
 }
 
 int run_case(const RunOptions& options) {

@@ -29,3 +29,8 @@ def test_a_trial_of_another_cell_is_refused(thawslide: Program, small_case: Path
     assert message == "error: --coarse sets grid.cell: omit --coarse, or --set grid.cell.\n"
     message = thawslide.error("run", small_case, "--coarse", "--pair")
     assert message == "error: --pair runs the case on coarse cells, too: omit --coarse.\n"
+
+
+def test_a_trial_keeps_a_given_step(thawslide: Program, small_case: Path) -> None:
+    trial = thawslide.json("check", small_case, "--coarse", "--set", "time.step=0.001")
+    assert trial["steps"] == thawslide.json("check", small_case, "--set", "time.step=0.001")["steps"]

@@ -160,7 +160,7 @@ def test_report_has_figures_animation_and_maps(map_run: Path) -> None:
     lines: list[str] = []
     report = make_report(run, dpi=40, progress=lines.append)
     assert list(report.figures) == ON_MAP
-    assert lines[0] == f"[1/12] extent_maps: {map_run / 'figures' / 'extent_maps.png'}"
+    assert lines[0] == f"[1/13] extent_maps: {map_run / 'figures' / 'extent_maps.png'}"
     page = report.page.read_text(encoding="utf-8")
     assert '<video controls loop muted src="data:video/mp4;base64,' in page
     assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
