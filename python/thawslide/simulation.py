@@ -297,7 +297,7 @@ class Simulation:
         next_call = self.time
         while self.time < target and not self.is_done:
             if every is not None:
-                while next_call <= self.time:
+                while next_call * (1.0 - _ROUND_OFF) <= self.time:
                     next_call += every
                 self._advance(min(target, next_call * (1.0 - _ROUND_OFF)), sys.maxsize)
             else:

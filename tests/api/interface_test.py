@@ -35,6 +35,21 @@ def test_nodes_have_the_mass_and_momentum_of_the_particles(slope: Path) -> None:
     assert np.all(nodes.position.max(axis=0) < particles.max(axis=0) + 3.0 * cell)
 
 
+def test_nodes_after_a_restoration_are_those_of_the_next_step(slope: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    simulation.step(5)
+    simulation.restore(simulation.checkpoint())
+    assert len(simulation.nodes.mass) == 0
+    simulation.step()
+    assert simulation.nodes.mass.sum() == pytest.approx(simulation.field("mass").sum(), rel=1e-12)
+
+
+def test_nodes_without_mechanics_have_no_mass() -> None:
+    simulation = Simulation(ROOT / "cases" / "freezing-bar" / "m025.toml", threads=1, on_message=silent)
+    simulation.step(3)
+    assert len(simulation.nodes.mass) == 0
+
+
 def test_positions_are_in_the_coordinates_of_the_case(slope: Path, tmp_path: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
@@ -79,6 +94,9 @@ def test_a_dictionary_is_a_case(slope: Path, tmp_path: Path, monkeypatch: pytest
     assert case["grid.cell"] == Case(slope)["grid.cell"]
     with pytest.raises(UserError, match=r"^grid\.cell=-1\.0: grid\.cell is -1"):
         Case.from_dict(tables | {"grid": tables["grid"] | {"cell": -1.0}})
+    assert case.name == "case"
+    with pytest.raises(TypeError, match="grid is 5, and not a table"):
+        Case.from_dict(tables | {"grid": 5})  # type: ignore[dict-item]
     with pytest.raises(TypeError, match="a case has no value of type object"):
         Case.from_dict({"grid": {"cell": object()}})
 
@@ -103,8 +121,17 @@ def test_a_logger_records_quantities_at_intervals(slope: Path) -> None:
     assert list(table.columns) == ["time_s", "step", "front_m", "particles"]
     np.testing.assert_allclose(table["time_s"], 0.1 * np.arange(1, 6), atol=1e-9)
     assert table["front_m"].is_monotonic_increasing and (table["particles"] == simulation.particle_count).all()
+    with pytest.raises(ValueError, match="the logger itself records time_s"):
+        Logger(time_s=lambda simulation: 0.0)
     assert repr(logger) == "Logger(front_m, particles: 5 rows)"
     assert Logger(front_m=lambda simulation: math.nan).table.empty
+
+
+def test_a_callback_at_short_intervals_is_called_once_per_step(slope: Path) -> None:
+    times: list[float] = []
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    simulation.run(until=0.025, callback=lambda now: times.append(now.time), every=0.002)
+    np.testing.assert_allclose(times, 0.005 * np.arange(1, 6))
 
 
 def test_objects_have_texts(slope: Path, tmp_path: Path) -> None:
