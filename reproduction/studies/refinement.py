@@ -27,7 +27,6 @@ CAUSES = (
     Variant("alr-weak", "default filter, internal friction 25 degrees", ("material.grains.friction_angle=25",)),
 )
 ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain
-THICK = 1.0  # m, along the vertical: the thickness of areas
 QUICK = ("time.end=4", "time.output_interval=2", "time.history_interval=0.5")
 
 
@@ -43,7 +42,8 @@ class Found:
     end_speed: float  # mean speed at the end [m/s]
     simulated: float  # [s]
     left: float  # fraction of the mass that left the DEM
-    area: float  # covered by at least THICK at the end [m2], on the map cell of the case
+    deposit: float  # area thicker than maps.area_thickness at the end [m2], on the map cell of the case
+    inundated: float  # area ever thicker [m2]
     dilation: float  # relative increase of the volume
     particles: int
     processor: float  # [s]
@@ -54,8 +54,9 @@ class Deposit:
     """The numbers of a deposit, from maps."""
 
     cell: float  # [m]
-    covered: float  # area at the end [m2]
-    affected: float  # area that was covered at any time [m2]
+    covered: float  # area thicker than maps.area_thickness at the end [m2]
+    inundated: float  # area ever thicker [m2]
+    affected: float  # area ever thicker than maps.arrival_thickness [m2]
     thickness: float  # maximum on the map [m]
     width: float  # standard deviation of the mass across the slope [m]
     dilation: float  # relative increase of the volume
@@ -106,7 +107,6 @@ def read_found(folder: Path) -> Found:
     first, last = (run.snapshot(place, fields=["mass"]) for place in (0, -1))
     centres = [np.average(each.points[:, :2], axis=0, weights=each["mass"]) for each in (first, last)]
     history = run.series
-    thickness = read_map(folder / "maps" / "final_thickness.tif")
     return Found(
         cell=float(run.section("grid")["cell"]),
         travel=float(run.facts["travel_distance_m"]),
@@ -116,7 +116,8 @@ def read_found(folder: Path) -> Found:
         end_speed=float(history["mean_velocity_m_s"][-1]),
         simulated=run.last_time,
         left=float(history["left_mass_kg"][-1] / history["mass_kg"][0]),
-        area=float(np.sum(thickness.values >= THICK)) * thickness.grid.cell_x * thickness.grid.cell_y,
+        deposit=float(run.facts["deposit_area_m2"]),
+        inundated=float(run.facts["inundated_area_m2"]),
         dilation=float(run.facts["dilation_fraction"]),
         particles=int(run.facts["particles"]),
         processor=processor_time(folder),
@@ -131,7 +132,8 @@ def read_deposit(folder: Path) -> Deposit:
     y, mass = last.points[:, 1], last["mass"]
     return Deposit(
         cell=float(run.section("grid")["cell"]),
-        covered=float(run.facts["covered_area_m2"]),
+        covered=float(run.facts["deposit_area_m2"]),
+        inundated=float(run.facts["inundated_area_m2"]),
         affected=float(run.facts["affected_area_m2"]),
         thickness=float(np.nanmax(thickness.values)),
         width=math.sqrt(np.average((y - np.average(y, weights=mass)) ** 2, weights=mass)),

@@ -51,7 +51,8 @@ ROWS: dict[str, Callable[[Found], str]] = {
     "mean velocity at the end (m/s)": lambda found: f"{found.end_speed:.2f}",
     "simulated (s)": lambda found: f"{found.simulated:.0f}",
     "mass that left the DEM": lambda found: f"{100.0 * found.left:.1f} %",
-    "deposit area with at least 1 m (m2)": lambda found: f"{found.area:,.0f}",
+    "deposit area (m2)": lambda found: f"{found.deposit:,.0f}",
+    "inundated area (m2)": lambda found: f"{found.inundated:,.0f}",
     "increase of volume by dilation": lambda found: f"{100.0 * found.dilation:.1f} %",
     "particles": lambda found: f"{found.particles:,}",
     "processor time (s)": lambda found: "" if math.isnan(found.processor) else f"{found.processor:,.0f}",
@@ -99,6 +100,7 @@ def deposit_table(found: list[Deposit]) -> str:
     """Return the numbers of maps on several cells, with the limit of areas and widths from the two finest ones."""
     names = {
         "deposit area (m2)": ("covered", 0, True),
+        "inundated area (m2)": ("inundated", 0, True),
         "affected area (m2)": ("affected", 0, True),
         "standard deviation of the deposit across the slope (m)": ("width", 0, True),
         "maximum thickness of the deposit (m)": ("thickness", 1, False),
@@ -126,7 +128,8 @@ def spread_words(found: list[Found]) -> str:
             ("travel distance", "travel"),
             ("reach angle", "reach_angle"),
             ("displacement of the centre", "centre"),
-            ("deposit area", "area"),
+            ("deposit area", "deposit"),
+            ("inundated area", "inundated"),
         )
     ]
     words = f"Range over mean of the {len(found)} finest cells: {', '.join(parts)}."
