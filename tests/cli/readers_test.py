@@ -177,7 +177,7 @@ def simulation_with_bed(reader: Reader, file: Path) -> float:
     law = {"law": "strength", "strength": 1e6, "friction_angle": 20.0, "depth_per_slip": 0.1, "material": "rock_ice"}
     keys = {f"bed__{key}": value for key, value in law.items()}
     masses = [
-        reader.simulation(bed__depth={"raster": str(each)}, **keys).series["bed_mass_kg"].iloc[0]
+        reader.simulation(bed__depth={"raster": str(each)}, **keys).history["bed_mass_kg"].iloc[0]
         for each in (file, odd.raster(reader.folder / "bed.tif", odd.thickness()))
     ]
     return float(odd.FULL * masses[0] / masses[1])
