@@ -79,12 +79,15 @@ template __global__ void strain_and_stress<LinearElastic, 3>(LinearElastic, Elas
 template __global__ void strain_and_stress<MohrCoulomb<>, 2>(MohrCoulomb<>, Elastic, double*, double*, std::size_t);
 template __global__ void strain_and_stress<MohrCoulomb<>, 3>(MohrCoulomb<>, Elastic, double*, double*, std::size_t);
 using SofteningFriction = MohrCoulomb<true>;
-template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFriction, Elastic, double*, double*, std::size_t);
-template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic, double*, double*, std::size_t);
+template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFriction, Elastic, double*, double*,
+                                                                 std::size_t);
+template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic, double*, double*,
+                                                                 std::size_t);
 
 // Checks whether a particle yields, and the part of its strain that gaps take.
 template <int Dim>
-__global__ void yield_and_gap(MohrCoulomb<> law, Elastic elastic, double* numbers, double* results, std::size_t particles) {
+__global__ void yield_and_gap(MohrCoulomb<> law, Elastic elastic, double* numbers, double* results,
+                              std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Tensor strain = row.take_vector<6>();
   const double plastic_strain = row.take();
@@ -161,12 +164,11 @@ __global__ void join_columns(ColumnModel<Curve> model, const double* fractions, 
                              BandColumn* columns) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
   BandColumn other = others[k];
-  apply_cell_growth(model, columns[k].cell_growth, body_enthalpy(model, 0.0), water_of_full_pores(model, 0.0),
-                    other);
+  apply_cell_growth(model, columns[k].cell_growth, body_enthalpy(model, 0.0), water_of_full_pores(model, 0.0), other);
   columns[k] = joined_columns(model, fractions[k], columns[k], other, load);
 }
-template __global__ void join_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, const double*, const BandColumn*, double,
-                                                     BandColumn*);
+template __global__ void join_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, const double*, const BandColumn*,
+                                                     double, BandColumn*);
 template __global__ void join_columns<LinearCurve>(ColumnModel<LinearCurve>, const double*, const BandColumn*, double,
                                                    BandColumn*);
 
@@ -178,8 +180,8 @@ __global__ void start_columns(ColumnModel<Curve> model, double thickness, const 
   columns[k] = start_column(model, thickness, cell_growth, temperatures[k], temperatures[k], load);
   sums[k] = heat_of(columns[k]) + water_of(columns[k]);
 }
-template __global__ void start_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, double, const double*, double, BandColumn*,
-                                                      double*);
+template __global__ void start_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, double, const double*, double,
+                                                      BandColumn*, double*);
 
 __global__ void mixture(Phases phases, double* numbers, double* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
