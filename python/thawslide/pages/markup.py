@@ -13,6 +13,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from thawslide.errors import printable
 from thawslide.figures.style import save_figure
 
 _TYPES = {".png": "image/png", ".mp4": "video/mp4"}
@@ -24,10 +25,13 @@ _SELF_CONTAINED = (
 
 
 def page_frame(title: str, body: str, is_self_contained: bool = False, language: str = "en") -> str:
-    """Return a whole HTML page in the style of all reports; title and body are HTML already."""
+    """Return a whole HTML page in the style of all reports; title and body are HTML already.
+
+    Control characters become "?": a name or value of a case must not reverse the text around it.
+    """
     start, before, between, within, after = re.split("LANGUAGE|TITLE|POLICY|BODY", _FRAME)  # not in title or body
     policy = _SELF_CONTAINED if is_self_contained else ""
-    return f"{start}{language}{before}{title}{between}{policy}{within}{body}{after}"
+    return printable(f"{start}{language}{before}{title}{between}{policy}{within}{body}{after}")
 
 
 def table(rows: Iterable[Sequence[object]], style: str, head: Sequence[str] = ()) -> str:
