@@ -36,7 +36,7 @@ def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> No
     with rasterio.open(run / "maps" / "release.tif") as file:
         assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(volume, rel=1e-9)
     maxima = ("thickness", "speed", "momentum_flux", "pressure", "basal_temperature", "melt", "pore_pressure")
-    others = ("final_thickness", "arrival_time", "elevation_change", "terrain", "ground", "release")
+    others = ("final_thickness", "arrival_time", "max_pressure_time", "elevation_change", "terrain", "ground", "release")
     names = {path.stem for path in (run / "maps").glob("*.tif")}
     assert names == {*(f"max_{name}" for name in maxima), *others}
     assert (run / "maps" / "results.gpkg").is_file()
@@ -158,7 +158,7 @@ def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
     for name in ("checkpoint.bin", "probes.csv"):
         assert (complete / name).read_bytes() == (parts / name).read_bytes(), name
     maps = sorted((complete / "maps").glob("*.tif"))
-    assert len(maps) == 13
+    assert len(maps) == 14
     for file in maps:
         with rasterio.open(file) as one, rasterio.open(parts / "maps" / file.name) as other:
             assert one.read(1).tobytes() == other.read(1).tobytes(), file.name
@@ -223,7 +223,7 @@ def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Pa
         units = {"k": 1e3, "M": 1e6}
         assert 0.0 < float(reported[3]) * units[reported[4]] < float(reported[5]) * units[reported[6]]
         one = int(reported[1]) * int(reported[2]) * 8
-        sizes = f"11 of {size_text(one)}, 2 of {size_text(of_ground)}"
-        assert f", 13 maps ({sizes}) before they are compressed; " in facts["disk"]
+        sizes = f"12 of {size_text(one)}, 2 of {size_text(of_ground)}"
+        assert f", 14 maps ({sizes}) before they are compressed; " in facts["disk"]
     refusal = thawslide.error("check", folder, "--set", "maps.cell=0.01")
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal
