@@ -7,11 +7,11 @@ from reproduction.studies.refinement import PLANE_CELLS, PLANE_THICKNESS, Deposi
 
 
 def deposit(cell: float) -> Deposit:
-    """Return a deposit with errors of first order: 1,000 m2, 3,000 m2, 8 m and 100 m on cells of no size."""
+    """Return a deposit with errors of first order: 1,000, 2,000 and 3,000 m2, 8 m and 100 m on cells of no size."""
     error = cell / 40.0
     return Deposit(
-        cell=cell, covered=1_000.0 - 400.0 * error, affected=3_000.0 - 900.0 * error, thickness=8.0 + 6.0 * error,
-        width=100.0 - 30.0 * error, dilation=0.2, map_cell=1.5 * cell,
+        cell=cell, covered=1_000.0 - 400.0 * error, inundated=2_000.0 - 600.0 * error,
+        affected=3_000.0 - 900.0 * error, thickness=8.0 + 6.0 * error, width=100.0 - 30.0 * error, dilation=0.2, map_cell=1.5 * cell,
     )  # fmt: skip
 
 
@@ -20,7 +20,8 @@ def test_limits_of_deposits_are_of_first_order(cells: tuple[float, ...]) -> None
     table = refinement_page.deposit_table([deposit(cell) for cell in cells])
     rows = {line.split("|")[1].strip(): [text.strip() for text in line.split("|")[2:-1]] for line in table.splitlines()}
     assert rows["cells across the release"] == [*(f"{PLANE_THICKNESS / cell:.3g}" for cell in cells), ""]
-    assert (rows["deposit area (m2)"][-1], rows["affected area (m2)"][-1]) == ("1,000", "3,000")
+    areas = [rows[f"{name} area (m2)"][-1] for name in ("deposit", "inundated", "affected")]
+    assert areas == ["1,000", "2,000", "3,000"]
     assert rows["standard deviation of the deposit across the slope (m)"][-1] == "100"
     assert rows["maximum thickness of the deposit (m)"] == [*(f"{8.0 + 0.15 * cell:.1f}" for cell in cells), ""]
 
