@@ -182,8 +182,7 @@ using Pressure = band::PorePressure<const band::ColumnsOfTile<Dim>&, true, Balan
 template <int Dim, bool Balances>
 __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to, band::BandPhysics model,
                               band::HydraulicConductivity hydraulic, const band::ColumnsOfTile<Dim>* columns) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals,
-                    Pressure<Dim, Balances>{model, hydraulic, 0.5 * tile.cell, *columns});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, Pressure<Dim, Balances>{model, hydraulic, 0.5 * tile.cell, *columns});
 }
 
 // Columns of the slide: overlap of a box, a column at the body's edge, and the load of a particle below one.
