@@ -60,7 +60,8 @@ def run_program(arguments: Sequence[str], feedback: QgsProcessingFeedback) -> No
 
 def _follow(command: Sequence[str], errors: IO[str], feedback: QgsProcessingFeedback) -> tuple[str, int]:
     """Show the output while the command runs; return its last line and the exit code."""
-    with subprocess.Popen(
+    # A list of arguments without a shell: no text of the user is a command.
+    with subprocess.Popen(  # nosec B603
         command,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
