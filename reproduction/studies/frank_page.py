@@ -50,16 +50,16 @@ def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
 def difference_table(
     found: dict[tuple[int, str], frank.Figures], differences: dict[tuple[int, str], frank.Difference]
 ) -> str:
-    """Return single runs by friction angle, and the differences of their deposits from SHALTOP's."""
+    """Return runs of Thawslide by friction angle, and the differences of their deposits from SHALTOP's."""
     lines = [
         "angle (degrees) | run | centroid, x (m) | area (km2) | farthest x (m) | median speed (m/s) | overlap "
         "| moved volume"
     ]
     for (angle, name), one in found.items():
-        apart = differences.get((angle, name))
+        apart = differences[angle, name]
         lines.append(
             f"{angle} | {name} | {one.x:,.0f} | {one.area:.2f} | {one.farthest:,.0f} | {one.usual_speed:.1f} | "
-            + (f"{apart.overlap:.2f} | {100.0 * apart.moved:.0f} %" if apart else " | ")
+            f"{apart.overlap:.2f} | {100.0 * apart.moved:.0f} %"
         )
     return markdown(lines)
 
@@ -154,12 +154,11 @@ def write(place: Place) -> None:
         figure.savefig(place.page(f"docs/comparison/frank-{name}.png"), dpi=150)
     rows, apart = {}, {}
     for angle in frank.ANGLES:
-        rows[angle, SHALTOP] = numbers[SHALTOP, angle]
         for variant in (frank.BASE, frank.FLUID, *frank.CAUSES):
             deposit = own.get(f"{variant.name}-{angle}")
             if deposit is not None:
-                rows[angle, f"{THAWSLIDE}, {variant.words}"] = frank.figures(deposit, terrain, pile)
-                apart[angle, f"{THAWSLIDE}, {variant.words}"] = frank.difference(deposit, found[SHALTOP, angle])
+                rows[angle, variant.words] = frank.figures(deposit, terrain, pile)
+                apart[angle, variant.words] = frank.difference(deposit, found[SHALTOP, angle])
     parts = {
         "numbers": main_table(numbers),
         "causes": difference_table(rows, apart),

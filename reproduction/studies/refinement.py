@@ -39,12 +39,9 @@ class Found:
     reach_angle: float  # [degrees]
     centre: float  # horizontal, of the centre of mass, straight [m]
     speed: float  # maximum mean speed [m/s]
-    end_speed: float  # mean speed at the end [m/s]
-    simulated: float  # [s]
     left: float  # fraction of the mass that left the DEM
     deposit: float  # area thicker than maps.area_thickness at the end [m2], on the map cell of the case
     inundated: float  # area ever thicker [m2]
-    dilation: float  # relative increase of the volume
     particles: int
     processor: float  # [s]
 
@@ -59,8 +56,6 @@ class Deposit:
     affected: float  # area ever thicker than maps.arrival_thickness [m2]
     thickness: float  # maximum on the map [m]
     width: float  # standard deviation of the mass across the slope [m]
-    dilation: float  # relative increase of the volume
-    map_cell: float  # [m]
 
 
 def alr_domain(cell: float) -> tuple[str, str]:
@@ -113,12 +108,9 @@ def read_found(folder: Path) -> Found:
         reach_angle=float(run.facts["reach_angle_degrees"]),
         centre=float(np.hypot(*(centres[1] - centres[0]))),
         speed=float(history["mean_velocity_m_s"].max()),
-        end_speed=float(history["mean_velocity_m_s"][-1]),
-        simulated=run.last_time,
         left=float(history["left_mass_kg"][-1] / history["mass_kg"][0]),
         deposit=float(run.facts["deposit_area_m2"]),
         inundated=float(run.facts["inundated_area_m2"]),
-        dilation=float(run.facts["dilation_fraction"]),
         particles=int(run.facts["particles"]),
         processor=processor_time(folder),
     )
@@ -137,8 +129,6 @@ def read_deposit(folder: Path) -> Deposit:
         affected=float(run.facts["affected_area_m2"]),
         thickness=float(np.nanmax(thickness.values)),
         width=math.sqrt(np.average((y - np.average(y, weights=mass)) ** 2, weights=mass)),
-        dilation=float(run.facts["dilation_fraction"]),
-        map_cell=float(thickness.grid.cell_x),
     )
 
 

@@ -48,12 +48,9 @@ ROWS: dict[str, Callable[[Found], str]] = {
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.2f}",
     "displacement of the centre of mass (m)": lambda found: f"{found.centre:,.0f}",
     "maximum mean velocity (m/s)": lambda found: f"{found.speed:.1f}",
-    "mean velocity at the end (m/s)": lambda found: f"{found.end_speed:.2f}",
-    "simulated (s)": lambda found: f"{found.simulated:.0f}",
     "mass that left the DEM": lambda found: f"{100.0 * found.left:.1f} %",
     "deposit area (m2)": lambda found: f"{found.deposit:,.0f}",
     "inundated area (m2)": lambda found: f"{found.inundated:,.0f}",
-    "increase of volume by dilation": lambda found: f"{100.0 * found.dilation:.1f} %",
     "particles": lambda found: f"{found.particles:,}",
     "processor time (s)": lambda found: "" if math.isnan(found.processor) else f"{found.processor:,.0f}",
 }
@@ -114,8 +111,6 @@ def deposit_table(found: list[Deposit]) -> str:
         values = [f"{getattr(each, name):,.{digits}f}" for each in found]
         at_zero = limit(getattr(coarse, name), getattr(fine, name), 1.0, coarse.cell / fine.cell)
         lines.append([words, *values, f"{at_zero:,.{digits}f}" if has_limit else ""])
-    lines.append(["increase of volume by dilation", *(f"{100.0 * each.dilation:.0f} %" for each in found), ""])
-    lines.append(["cell of the maps (m)", *(f"{each.map_cell:g}" for each in found), ""])
     return markdown(lines)
 
 
@@ -136,6 +131,18 @@ def spread_words(found: list[Found]) -> str:
     return textwrap.fill(words, 118)
 
 
+def listed(texts: list[str]) -> str:
+    """Return texts as a list in a sentence."""
+    return " and ".join([", ".join(texts[:-1]), texts[-1]] if len(texts) > 1 else texts)
+
+
+def rough_words(found: list[Found]) -> str:
+    """Return a sentence on the travel distance on the unfiltered DEM."""
+    cells, travels = (listed([f"{each.cell:.3g}" for each in found]), listed([f"{each.travel:,.0f}" for each in found]))
+    words = f"On the unfiltered DEM (`terrain.smooth = 0`), the travel distance is {travels} m on cells of {cells} m."
+    return textwrap.fill(words, 120)
+
+
 def friction_rows(folder: Path, terrain: Map) -> list[Interval]:
     """Return the intervals of a run in which it moves fast enough to evaluate friction."""
     run = Run(folder)
@@ -146,16 +153,6 @@ def friction_rows(folder: Path, terrain: Map) -> list[Interval]:
         for each in found
         if float(speed[(time >= each.start) & (time <= each.end)].min()) > SLOWEST or each.start == 0.0
     ]
-
-
-def friction_table(rows: list[Interval]) -> str:
-    """Return apparent friction over the coefficient, and the wedge factor, over time."""
-    lines = [["time (s)", "wedge factor w", "on the ground", "ground and inside", "ground over w", "both over w"]]
-    for each in rows:
-        both = each.ground + each.inside
-        values = (each.wedge, each.ground, both, each.ground / each.wedge, both / each.wedge)
-        lines.append([f"{each.start:.0f} to {each.end:.0f}", *(f"{value:.3f}" for value in values)])
-    return markdown(lines)
 
 
 @styled
@@ -213,9 +210,8 @@ def write(place: Place) -> None:
         "deposits": deposit_table(deposits) if len(deposits) > 1 else "",
         "wide": f"{cells_table(wide)}\n\n{spread_words(wide)}",
         "filtered": f"{cells_table(alr)}\n\n{spread_words(alr)}",
-        "rough": f"{cells_table(rough)}\n\n{spread_words(rough)}",
+        "rough": rough_words(rough),
         "causes": table(["", *(each.words for each in causes)], [read_found(each) for each in causes.values()]),
-        "friction": friction_table(friction(causes[FILTERED])) if FILTERED in causes else "",
     }
     place.page("docs/refinement.md").write_text(text_of("refinement.md", parts), encoding="utf-8")
 

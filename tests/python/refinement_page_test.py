@@ -11,8 +11,7 @@ def deposit(cell: float) -> Deposit:
     error = cell / 40.0
     return Deposit(
         cell=cell, covered=1_000.0 - 400.0 * error, inundated=2_000.0 - 600.0 * error,
-        affected=3_000.0 - 900.0 * error, thickness=8.0 + 6.0 * error, width=100.0 - 30.0 * error, dilation=0.2,
-        map_cell=1.5 * cell,
+        affected=3_000.0 - 900.0 * error, thickness=8.0 + 6.0 * error, width=100.0 - 30.0 * error,
     )  # fmt: skip
 
 
