@@ -127,6 +127,24 @@ def reversal(time: Numbers, up: Numbers) -> Reversal | None:
     return Reversal(_vertex(time, up, top), float(zero), _vertex(time, up, bottom))
 
 
+def extreme_times(time: Numbers, up: Numbers, along: Numbers) -> dict[str, float]:
+    """Return the times [s] of the extremes of a force [N]; nan for those that it does not have.
+
+    `downward`: largest downward value; `upward`: last upward maximum before it; `dip`: lowest minimum between the first
+    upward maximum and the last; `along`: maximum magnitude in the direction of travel.
+    """
+    bottom = int(np.argmin(up))
+    inner = np.arange(1, max(bottom, 1))
+    tops = inner[(up[inner] > 0.0) & (up[inner] >= up[inner - 1]) & (up[inner] > up[inner + 1])]
+    dip = tops[0] + int(np.argmin(up[tops[0] : tops[-1] + 1])) if tops.size > 1 else None
+    return {
+        "dip": float("nan") if dip is None else _vertex(time, up, dip),
+        "upward": _vertex(time, up, int(tops[-1])) if tops.size else float("nan"),
+        "downward": _vertex(time, up, bottom),
+        "along": _vertex(time, along, int(np.argmax(np.abs(along)))),
+    }
+
+
 def _vertex(time: Numbers, values: Numbers, row: int) -> float:
     """Return the time [s] of the vertex of the parabola through a row and its two evenly spaced neighbours."""
     if not 0 < row < len(time) - 1:

@@ -11,12 +11,13 @@ from maps_test import plane  # noqa: F401
 from probability_test import CELL, write
 
 from thawslide.figures.force_record import Comparison, Curves
+from thawslide.force_record import extreme_times
 from thawslide.number_text import area_text, number_text
 from thawslide.pages.events import published_events
 from thawslide.scores.baseline import baseline_values, similar_events
 from thawslide.scores.command import main
 from thawslide.scores.ensemble import percentile
-from thawslide.scores.force import correlation
+from thawslide.scores.force import best_alignment, correlation
 from thawslide.scores.output import BEGIN, END, stored_section
 from thawslide.scores.renewal import renew_score
 from thawslide.sweeps.command import main as sweep
@@ -266,12 +267,37 @@ def test_the_correlation_is_that_of_both_components_at_the_times_of_the_record()
     parts = [np.interp(times, at, part, 0.0, 0.0) for part in (record.up, record.along)]
 
     def found(up: np.ndarray, along: np.ndarray) -> float:
-        return correlation(Comparison(Curves(times, up, along, None), record, {}, 0.0, 0.0, True))
+        return correlation(Curves(times, up, along, None), record)
 
     assert found(*parts) == pytest.approx(1.0) and found(-3.0 * parts[0], -3.0 * parts[1]) == pytest.approx(-1.0)
     up, along = np.vdot(record.up, record.up), np.vdot(record.along, record.along)
     assert found(parts[0], 0.0 * parts[1]) == pytest.approx(np.sqrt(up / (up + along)))
     assert np.isnan(found(0.0 * parts[0], 0.0 * parts[1]))
+
+
+@pytest.mark.parametrize("late", [-7.0, 0.0, 12.5])
+def test_the_best_alignment_finds_the_delay_of_a_run(late: float) -> None:
+    times = np.arange(0.0, 120.0, 0.5)
+
+    def force(start: float) -> tuple[np.ndarray, np.ndarray]:
+        up = np.exp(-(((times - start - 12.0) / 6.0) ** 2)) - np.exp(-(((times - start - 30.0) / 5.0) ** 2))
+        return up, -np.exp(-(((times - start - 20.0) / 8.0) ** 2))
+
+    record, run = Curves(times, *force(20.0), None), Curves(times, *force(20.0 + late), None)
+    shift, best = best_alignment(Comparison(run, record, {}, 0.0, 0.0, True))
+    assert shift == pytest.approx(late) and best == pytest.approx(1.0, abs=1e-6)
+    flat = Curves(times, 0.0 * times, 0.0 * times, None)
+    assert np.isnan(best_alignment(Comparison(flat, record, {}, 0.0, 3.0, True))[1])
+
+
+def test_extremes_of_a_force_are_in_order() -> None:
+    time = np.arange(0.0, 60.0, 0.1)
+    up = sum(a * np.exp(-(((time - t) / 3.0) ** 2)) for a, t in ((0.3, 8.0), (1.0, 21.0), (-0.9, 31.0), (0.2, 40.0)))
+    found = extreme_times(time, up, -np.exp(-(((time - 29.5) / 9.0) ** 2)))
+    assert found["upward"] == pytest.approx(21.0, abs=0.3) and found["downward"] == pytest.approx(31.0, abs=0.3)
+    assert 11.0 < found["dip"] < 16.0 and found["along"] == pytest.approx(29.5, abs=0.01)
+    single = extreme_times(time, -np.abs(up), up)
+    assert np.isnan(single["upward"]) and np.isnan(single["dip"])
 
 
 def test_a_damaged_score_does_not_prevent_the_page(tmp_path: Path) -> None:

@@ -43,6 +43,12 @@ QUANTITIES = {
 THICKNESS = Quantity("thickness", LENGTHS, "", "vertical, in the map cell that contains the point")
 FORCE = Quantity("maximum vertical force", FORCES, "", "maximum magnitude in the band of the record")
 REVERSAL = Quantity("time between the extremes of the vertical force", TIMES, "", "from upward to downward maximum")
+FORCE_TIMES = {
+    "dip": Quantity("time of the dip of the upward force", TIMES, "", "minimum before its last maximum"),
+    "upward": Quantity("time of the last upward force", TIMES, "", "last maximum before the largest downward force"),
+    "downward": Quantity("time of the largest downward force", TIMES, "", "at the shift of best correlation"),
+    "along": Quantity("time of the largest horizontal force", TIMES, "", "in the direction of travel"),
+}
 
 # Tables of observed.toml, and the type or the allowed texts of each key. Numbers are at least 0, except coordinates.
 _VALUE = {"value": float, "unit": str, "uncertainty": float, "source": str}

@@ -94,8 +94,9 @@ def _pairs(score: Score) -> list[tuple[Observation, Numbers]]:
             score.notes.append(f"{observation.words}: {error}")
     if score.observed.record is not None:
         try:
-            pairs, score.columns["force_correlation"] = compare_forces(score.forecast, score.observed.record)
+            pairs, columns = compare_forces(score.forecast, score.observed.record)
             found += pairs
+            score.columns |= columns
         except NotInRunError as error:
             score.notes.append(f"force record: {error}")
     return found
