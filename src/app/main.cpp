@@ -224,6 +224,14 @@ int run_program(int count, char** arguments) {
           "--largest-volume", new_options.maps.largest_volume,
           "Maximum volume of the release [m3], to confirm a large one (default: that of body.NAME.largest_volume)")
       ->check(above_zero());
+  for (const thawslide::config::ProposedSubstrate& each : thawslide::config::proposed_substrates) {
+    make_new
+        ->add_option(each.option, new_options.outlines[each.name],
+                     fmt::format("Polygons of this ground on the path: a substrate with a friction coefficient of {} "
+                                 "({} to {} in sweep.toml; assumed)",
+                                 each.coefficient, each.low, each.high))
+        ->option_text("FILE");
+  }
   new_options.program = arguments[0];
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 

@@ -146,11 +146,12 @@ void require_affordable(const config::Proposal& proposal, const NewOptions& opti
       rounded_up(proposal.cell * std::cbrt(proposal.particles / most), 2)));
 }
 
-// Copies the release with the files that belong to it.
-void copy_release(const fs::path& folder, const config::Case& trial) {
-  config::Case release_alone;
-  release_alone.bodies = trial.bodies;
-  for (const fs::path& file : run::input_files(release_alone)) {
+// Copies the release and the outlines of substrates, with the files that belong to them.
+void copy_polygons(const fs::path& folder, const config::Case& trial) {
+  config::Case polygons_alone;
+  polygons_alone.bodies = trial.bodies;
+  polygons_alone.substrates = trial.substrates;
+  for (const fs::path& file : run::input_files(polygons_alone)) {
     fs::copy_file(file, folder / file.filename());
   }
 }
@@ -264,9 +265,17 @@ int make_new_case(const NewOptions& options) {
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);
   config::Case trial = trial_case(options.folder, options.maps);
+  config::ProposalInput input;
+  for (const config::ProposedSubstrate& each : config::proposed_substrates) {
+    if (const std::string& file = options.outlines.at(each.name); !file.empty()) {
+      trial.substrates[each.name].outline = file;
+      trial.locations[fmt::format("substrate.{}.outline", each.name)] = each.option;
+      input.outlines[each.name] = fs::path(file).filename().string();
+      require_utf8(each.option, input.outlines[each.name]);
+    }
+  }
   config::Site site = open_site(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
-  config::ProposalInput input;
   if (options.maps.cut) {
     input.taper = taper_edges(trial, site);
     site = reopen_site(trial);
@@ -300,7 +309,7 @@ int make_new_case(const NewOptions& options) {
   NewFolder new_folder(options.folder);
   const fs::path& folder = new_folder.path();
   write_cropped_dem(folder / input.dem_file, site, proposal, quick);
-  copy_release(folder, trial);
+  copy_polygons(folder, trial);
   write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
   input.base = base_by_block(folder);
   write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
@@ -308,7 +317,7 @@ int make_new_case(const NewOptions& options) {
   if (!input.base) {
     base.friction = std::atan(config::slope_below(ground, thickness)) * 180.0 / std::numbers::pi;
   }
-  write_file_atomically(folder / "sweep.toml", config::sweep_text(proposal.thickness, base, quick));
+  write_file_atomically(folder / "sweep.toml", config::sweep_text(proposal.thickness, base, quick, input.outlines));
   const std::optional<run::RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
@@ -335,6 +344,9 @@ int make_new_case(const NewOptions& options) {
     fmt::print(
         "warning: grid.cell: the run takes long, with {} particles. Set a larger --cell for a coarser, shorter run\n",
         with_commas(proposal.particles, 2));
+  }
+  if (input.outlines.empty()) {
+    fmt::print("path:        [basal] everywhere. Polygons of other ground: --glacier, --snow, --valley-floor\n");
   }
   print_next_commands(options.program, folder);
   fmt::print("forecast: {} forecast {}\n", shell_quote(options.program), shell_quote(folder.string()));

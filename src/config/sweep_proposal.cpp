@@ -36,9 +36,22 @@ std::string cells_text(const std::optional<Proposal>& quick) {
                      number_text(quick->cell), point(quick->min), point(quick->max));
 }
 
+std::string substrates_text(const std::map<std::string, std::string>& outlines) {
+  std::string text;
+  for (const ProposedSubstrate& each : proposed_substrates) {
+    if (outlines.count(each.name) > 0) {
+      text +=
+          fmt::format("# Fraction of the normal stress. Assumed.\n\"substrate.{}.friction_coefficient\" = [{}, {}]\n",
+                      each.name, each.low, each.high);
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick) {
+std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick,
+                       const std::map<std::string, std::string>& outlines) {
   constexpr double least_friction = 20.0, most_friction = 35.0;  // degrees
   constexpr double thinnest_band = 0.1, thickest_band = 1.0;     // m
   constexpr double low_ratio = 0.6, band_ratio = 0.05;
@@ -74,20 +87,19 @@ seed = 1
 "band.thickness" = [{thin:.3g}, {thick:.3g}]
 # Degrees, of the broken material. Assumed: 35 degrees of back-analyses (Hungr and McDougall 2009), and 5 more or less.
 "material.rock_ice.friction_angle" = [30.0, 40.0]
-
+{substrates}
 [sweep.lognormal]  # median, and standard deviation of the natural logarithm; truncated at 3 standard deviations
 # m/s: between 1e-8 and 1e-5 m/s, the range of docs/choosing-the-base.md.
 "material.rock_ice.hydraulic_conductivity" = {conductivity}
 
-# What lies on the path decides as well. If there is a glacier, snow or a valley floor, draw its polygon, add a table
-# [substrate.NAME] with its friction to the case, and [bed] if it can be entrained. Then vary its friction here, e.g.
-# "substrate.glacier.friction_coefficient" = [0.05, 0.15] in [sweep.range] (docs/choosing-the-base.md).
+# What lies on the path decides as well. Polygons of a glacier, snow or the valley floor are options of `thawslide new`.
+# If it can be entrained, add [bed] to the case.
 )",
-      fmt::arg("cells", cells_text(quick)), fmt::arg("least", least_friction), fmt::arg("most", most_friction),
-      fmt::arg("steepest", base.friction), fmt::arg("low_ratio", low_ratio), fmt::arg("low", low),
-      fmt::arg("high", high), fmt::arg("thin", thin), fmt::arg("thick", thick),
-      fmt::arg("thickness", rounded_text(thickness, 3)), fmt::arg("modulus", modulus_of_members(thickness)),
-      fmt::arg("conductivity", lognormal_text(1e-8, 1e-5)));
+      fmt::arg("cells", cells_text(quick)), fmt::arg("substrates", substrates_text(outlines)),
+      fmt::arg("least", least_friction), fmt::arg("most", most_friction), fmt::arg("steepest", base.friction),
+      fmt::arg("low_ratio", low_ratio), fmt::arg("low", low), fmt::arg("high", high), fmt::arg("thin", thin),
+      fmt::arg("thick", thick), fmt::arg("thickness", rounded_text(thickness, 3)),
+      fmt::arg("modulus", modulus_of_members(thickness)), fmt::arg("conductivity", lognormal_text(1e-8, 1e-5)));
 }
 
 }  // namespace thawslide::config

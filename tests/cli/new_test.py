@@ -195,6 +195,25 @@ def test_new_accepts_a_raster_of_the_thickness(ran: Ran, tmp_path: Path, slope: 
         assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
 
 
+def test_polygons_of_the_ground_become_substrates(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    note = "\npath:        [basal] everywhere. Polygons of other ground: --glacier, --snow, --valley-floor\n"
+    assert note in slope.ok(folder=tmp_path / "rock")
+    ground = write_rectangle(tmp_path / "ground.geojson", WEST + 400.0, SOUTH + 100.0)
+    assert note not in slope.ok("--valley-floor", ground)
+    key, coefficient = "substrate.valley_floor.friction_coefficient", 0.2
+    case = tomllib.loads((slope.case / "case.toml").read_text())["substrate"]
+    assert case == {
+        "valley_floor": {"outline": ground.name, "friction": "coefficient", "friction_coefficient": coefficient}
+    }
+    sweep = tomllib.loads((slope.case / "sweep.toml").read_text())["sweep"]["range"]
+    assert sweep[key][0] < coefficient < sweep[key][1]
+    assert "valley_floor: within its polygons, " in thawslide.ok("check", slope.case)
+    slope.refused(
+        "--snow: no.geojson: there is no such file. Correct the path.", "--snow", tmp_path / "no.geojson",
+        folder=tmp_path / "none",
+    )  # fmt: skip
+
+
 def size_text(size: float) -> str:
     """Return a size below 1 GB [bytes] as `check` prints it, with two significant digits."""
     value, unit = (size / 1e3, "kB") if size < 1e6 else (size / 1e6, "MB")

@@ -68,5 +68,14 @@ TEST(SweepProposal, MembersHaveTheCellsOfQuick) {
   EXPECT_EQ(number(text, "set", "grid.max", 2), 528.0);
 }
 
+TEST(SweepProposal, SubstratesHaveTheirRanges) {
+  const std::string key = "substrate.valley_floor.friction_coefficient";
+  const toml::table text =
+      toml::parse(sweep_text(30.0, base_of(0.2, 30.0), {}, {{"glacier", "a.gpkg"}, {"valley_floor", "b.gpkg"}}));
+  EXPECT_EQ(number(text, "range", key, 0), 0.1);
+  EXPECT_EQ(number(text, "range", key, 1), 0.3);
+  EXPECT_FALSE(text["sweep"]["range"]["substrate.snow.friction_coefficient"]);
+}
+
 }  // namespace
 }  // namespace thawslide::config
