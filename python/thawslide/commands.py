@@ -7,6 +7,7 @@ import sys
 import tempfile
 import traceback
 from importlib import import_module, metadata
+from pathlib import Path
 from typing import TextIO
 
 from thawslide.errors import ReportError, printable
@@ -64,8 +65,17 @@ def pair() -> int:
     return run_command("thawslide run --pair", "thawslide.pairs.command")
 
 
+def forget_missing_proj_data() -> None:
+    """Remove PROJ_LIB and PROJ_DATA from the environment if they name no database: rasterio has one of its own."""
+    for variable in ("PROJ_LIB", "PROJ_DATA"):
+        folders = os.environ.get(variable, "").split(os.pathsep)
+        if not any(folder and Path(folder, "proj.db").is_file() for folder in folders):
+            os.environ.pop(variable, None)
+
+
 def run_command(name: str, module: str, function: str = "main") -> int:
     """Import a module and run a function of it; return the exit code, 1 for an internal error."""
+    forget_missing_proj_data()
     try:
         import_module("matplotlib")
     except Exception as error:

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from thawslide import commands
+
 SETTINGS = {
     "TeX": "text.usetex: True\n",
     "other sizes": "figure.dpi: 30\nsavefig.dpi: 20\nsavefig.bbox: tight\nfont.size: 30\naxes.grid: True\n",
@@ -97,3 +99,11 @@ def test_without_a_folder_for_the_log_the_message_contains_it(tmp_path: Path) ->
     code += "def fail(**_): raise OSError\nmodule.main = main; tempfile.NamedTemporaryFile = fail"
     done = command("report", folder=tmp_path, code=code)
     assert done.returncode == 1 and "Please report it, with this text:" in done.stderr and "line " in done.stderr
+
+
+def test_a_missing_database_of_proj_is_not_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "proj.db").touch()
+    monkeypatch.setenv("PROJ_LIB", str(tmp_path / "missing"))
+    monkeypatch.setenv("PROJ_DATA", os.pathsep.join([str(tmp_path / "missing"), str(tmp_path)]))
+    commands.forget_missing_proj_data()
+    assert "PROJ_LIB" not in os.environ and os.environ["PROJ_DATA"].endswith(str(tmp_path))
