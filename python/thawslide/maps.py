@@ -203,6 +203,9 @@ class Maps(Mapping[str, Map]):
     def __len__(self) -> int:
         return len(self.names)
 
+    def __repr__(self) -> str:
+        return f"Maps({', '.join(self.names)})"
+
     def __getitem__(self, name: str) -> Map:
         if name not in self.names:
             raise NotInRunError(f"{self.folder / name}.tif: no such map (found: {', '.join(self.names) or 'none'}).")

@@ -74,6 +74,9 @@ class Snapshot(Mapping[str, NDArray[Any]]):
     def __len__(self) -> int:
         return len(self._fields)
 
+    def __repr__(self) -> str:
+        return f"Snapshot(t = {self.time:g} s, {len(self.points)} particles: {', '.join(self._fields)})"
+
     def with_velocity(self, velocity: Numbers) -> Snapshot:
         """Return the same snapshot with other velocities [m/s], shape (n, 3)."""
         other = copy(self)

@@ -141,3 +141,4 @@ def test_objects_have_texts(slope: Path, tmp_path: Path) -> None:
     assert repr(simulation.nodes).startswith("Nodes(") and repr(simulation.maps) == "LiveMaps()"
     run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
     assert repr(run) == f"Run({str(tmp_path / 'run')!r})"
+    assert repr(run.snapshot(0, fields=["mass", "volume"])) == "Snapshot(t = 0 s, 128 particles: mass, volume)"
