@@ -81,6 +81,7 @@ def test_interpolation_is_linear_and_ends_with_the_map() -> None:
 
 def test_maps_of_a_run_are_read_by_name(map_run: Path) -> None:
     maps = Maps(Run(map_run))
+    assert repr(maps) == f"Maps({', '.join(maps)})"
     assert "max_thickness" in maps and "depth" not in maps
     assert maps["release"].volume() == pytest.approx(80.0 * 60.0 * 6.0)
     assert maps.about("max_pressure") == ("max pressure", "Pa")
