@@ -14,6 +14,7 @@ from reproduction.studies import (
     pictures,
     refinement_page,
     reliability,
+    tutorials,
     verification,
 )
 
@@ -29,6 +30,7 @@ MODULES = (
     avaframe,
     frank_page,
     notebooks,
+    tutorials,
     reliability,
     joffre_page,
     checked_numbers,
