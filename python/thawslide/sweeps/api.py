@@ -277,7 +277,7 @@ def _execute(folder: SweepFolder, tasks: Sequence[Task], members: Sequence[Membe
         from thawslide.sweeps.resources import bytes_of_worker, cores, workers_that_fit
     except ModuleNotFoundError as error:
         raise ReportError(
-            f"a sweep needs the Python package {error.name}. Install the packages of python/requirements-sweep.txt."
+            f"a sweep needs the Python package {error.name}. Install it, e.g. with `pip install {error.name}`."
         ) from error
 
     states = {task.number: folder.record(task.number)["status"] for task in tasks}
