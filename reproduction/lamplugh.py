@@ -41,7 +41,7 @@ PHASE = 75.0  # s: the time of the peak in the paper
 FRONT = 10500.0  # m: the reported front
 COHESION = 6.0e5  # Pa: along the base at the start
 MARGIN = 1000.0  # m: what counts as the distal margin before it
-INVERSION = Band(35.0, 150.0)  # s: periods of inversions of long waves; that of the report is not checked
+INVERSION = Band(35.0, 150.0)  # s: periods of inversions of long waves; that of the report is assumed
 WIDER = Band(20.0, 150.0)
 
 _COLOURS = (RED, ORANGE, GREEN)

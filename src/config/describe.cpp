@@ -34,7 +34,7 @@ std::string range_text(const Entry& entry) {
   return is_number ? entry.rule->range.text() : "";
 }
 
-// Text such as "usually 0.01 to 2 (not checked)"; empty if no range is specified.
+// Text such as "usually 0.01 to 2 (assumption)"; empty if no range is specified.
 std::string usual_text(const Entry& entry) {
   return entry.rule->usual.is_specified() ? "usually " + entry.rule->usual.text() : "";
 }
@@ -133,7 +133,7 @@ std::string describe_markdown() {
       "in "
       "degrees, temperatures in degrees Celsius, and all other quantities in SI units.\n\n"
       "- *allowed*: type, range and keywords of the value. A value outside the range that follows *usually* is "
-      "allowed, and `check` and `run` warn. The sources of these ranges are not checked.\n"
+      "allowed, and `check` and `run` warn. These ranges are assumptions.\n"
       "- *default*: value that applies if the key is not given, or the condition that requires the key. *Only when* is "
       "the condition for a key to be allowed.\n"
       "- *source*: publication, listed in [References](theory/references.md). Equations, sections and tables without "

@@ -38,7 +38,7 @@ bool Usual::is_specified() const {
 }
 
 std::string Usual::text(const std::string& unit) const {
-  return is_specified() ? fmt::format("{:g} to {:g}{}{}{}{} (not checked)", low, high, unit.empty() ? "" : " ", unit,
+  return is_specified() ? fmt::format("{:g} to {:g}{}{}{}{} (assumption)", low, high, unit.empty() ? "" : " ", unit,
                                       *where == '\0' ? "" : " ", where)
                         : "";
 }

@@ -27,7 +27,7 @@ Range between(double low, double high);
 // Both ends excluded.
 Range inside(double low, double high);
 
-// Usual range of a number. Values outside it are allowed but reported. The sources of the ranges are not checked.
+// Usual range of a number. Values outside it are allowed but reported. The ranges are assumptions.
 struct Usual {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ struct Usual {
 
   [[nodiscard]] bool is_specified() const;
   [[nodiscard]] bool contains(double value) const { return value >= low && value <= high; }
-  // Text such as "0.01 to 2 (not checked)", "0.05 to 0.15 on a glacier (not checked)"; empty if no range is specified
+  // Text such as "0.01 to 2 (assumption)", "0.05 to 0.15 on a glacier (assumption)"; empty if no range is specified
   [[nodiscard]] std::string text(const std::string& unit = "") const;
 };
 

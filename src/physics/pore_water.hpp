@@ -5,8 +5,8 @@
 // [1/Pa], and the expansion of water depends on temperature. With m_v = 0 and a constant beta_L, it is Eq. 8 with a
 // rigid pore. Melt fills the fraction r of the pore that its ice filled; the remaining void n (1 - r) dS is filled
 // before the pressure rises.
-//   beta_L(T): -0.7e-4 at 0 C, 2.1e-4 at 20, 4.6e-4 at 50, 7.5e-4 1/K at 100, linear between and beyond (source of the
-//   four values: not checked)
+//   beta_L(T): -0.7e-4 at 0 C, 2.1e-4 at 20, 4.6e-4 at 50, 7.5e-4 1/K at 100, linear between and beyond (four values
+//   of published tables: docs/theory/pore-pressure.md)
 // The state of a pore is given by the surplus w, the volume of water beyond the filling at P = 0, per volume of
 // mixture. Below 0, it is a gas void; up to (n/K_L + m_v) N, it is under pressure; the excess opens the base.
 #pragma once

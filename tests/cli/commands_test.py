@@ -205,6 +205,6 @@ def test_check_warns_of_unusual_values_of_broken_material(thawslide: Program) ->
     printed = thawslide.ok("check", LAMPLUGH, *sets(material__rock_ice__softening_strain=0.5))
     assert (
         "warning: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
-        "usual 0.005 to 0.05 for broken rock and ice (not checked)\n" in printed
+        "usual 0.005 to 0.05 for broken rock and ice (assumption)\n" in printed
     )
     assert "softening_strain" not in thawslide.ok("check", LAMPLUGH), "the paper's own softening"

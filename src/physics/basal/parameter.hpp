@@ -24,7 +24,7 @@ struct Parameter {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
-  double usual_low = -std::numeric_limits<double>::infinity();  // typical range with band columns, not checked
+  double usual_low = -std::numeric_limits<double>::infinity();  // typical range with band columns, an assumption
   double usual_high = std::numeric_limits<double>::infinity();
   const char* usual_where = "";  // "on a glacier"
   const char* usual_law = "";    // keyword of the only law to which the typical range applies; empty: all

@@ -14,7 +14,7 @@ inline constexpr Parameter friction_angle{.key = "friction_angle",
                                           .text = "basal friction angle phi_f",
                                           .source = "Lei et al., Eq. 25, Tables 2, 3"};
 
-// The typical range is that of back-calculated rock avalanches on glaciers, not checked.
+// The typical range is an assumption for rock avalanches on glaciers.
 inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
                                                 .is_needed = true,
                                                 .only_with_its_laws = true,

@@ -109,7 +109,7 @@ TEST(Reference, StatesUnitRangeDefaultKeywordsAndNeed) {
   expect(
       "{ raster = \"FILE\" }, > 0 and <= 0.95; default: 0.375; only when ice_content is not given; Lei et al., Eq. 1, "
       "Table 2\n");
-  expect("a number, >= 0 [1/Pa]; usually 1e-09 to 1e-07 (not checked); default: 2e-09\n");
+  expect("a number, >= 0 [1/Pa]; usually 1e-09 to 1e-07 (assumption); default: 2e-09\n");
   expect("\"keep_cohesion\": mu_e max(0, N - P) + c_S: cohesion is kept\n");
   const Json all = Json::parse(describe_json());
   EXPECT_EQ(all[1]["keys"][0]["key"], "end");
