@@ -6,8 +6,10 @@ from reproduction.studies import (
     checked_numbers,
     columns,
     frank_page,
+    joffre_judged_page,
     joffre_page,
     laboratory_page,
+    lamplugh_force,
     lamplugh_results,
     notebooks,
     paper,
@@ -24,6 +26,7 @@ MODULES = (
     lamplugh_results,
     assumptions,
     columns,
+    lamplugh_force,
     verification,
     laboratory_page,
     refinement_page,
@@ -33,6 +36,7 @@ MODULES = (
     tutorials,
     reliability,
     joffre_page,
+    joffre_judged_page,
     checked_numbers,
 )
 STUDIES = {module.STUDY.name: module.STUDY for module in MODULES}

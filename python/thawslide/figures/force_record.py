@@ -68,6 +68,13 @@ def _times(start: float, end: float, band: Band) -> Numbers:
     return even_times(start, end, band.shortest / SAMPLES, band.shortest, band.longest)
 
 
+def record_curves(record: ForceRecord) -> Curves:
+    """Return the record within its band at its own times, even ones."""
+    at = _times(float(record.time[0]), float(record.time[-1]), record.band)
+    up, north, east = (filtered(record.time, record.best[part], at, record.band) for part in PARTS)
+    return Curves(at, up, projected(north, east, travel_azimuth(record)), reversal(at, up))
+
+
 def compared(run: Run, other: ForceRecord | None = None) -> Comparison:
     """Return the curves of the figure, of the record of the run or another; NotInRunError without record or width."""
     record = other or run.force_record
@@ -76,25 +83,19 @@ def compared(run: Run, other: ForceRecord | None = None) -> Comparison:
     if run.per_metre:
         raise NotInRunError("case.toml: the force record cannot be compared without a width. Specify case.width.")
     azimuth = travel_azimuth(record)
-    of_record = _times(float(record.time[0]), float(record.time[-1]), record.band)
-    up, north, east = (filtered(record.time, record.best[part], of_record, record.band) for part in PARTS)
-    record_curves = Curves(of_record, up, projected(north, east, azimuth), reversal(of_record, up))
+    of_record = record_curves(record)
 
     # The first filter covers the run and gives the shift of times; the second covers the time of the record.
     start = float(run.series["time_s"][0])
     preliminary = _curves(run, record, azimuth, start)
-    is_aligned = preliminary.reversal is not None and record_curves.reversal is not None
-    shift = (
-        preliminary.reversal.zero - record_curves.reversal.zero
-        if preliminary.reversal and record_curves.reversal
-        else 0.0
-    )
-    run_curves = _curves(run, record, azimuth, min(start, float(of_record[0]) + shift))
-    moved = record_curves.reversal.moved(shift) if record_curves.reversal else None
+    is_aligned = preliminary.reversal is not None and of_record.reversal is not None
+    shift = preliminary.reversal.zero - of_record.reversal.zero if preliminary.reversal and of_record.reversal else 0.0
+    run_curves = _curves(run, record, azimuth, min(start, float(of_record.time[0]) + shift))
+    moved = of_record.reversal.moved(shift) if of_record.reversal else None
     return Comparison(
         run=run_curves,
-        record=Curves(of_record + shift, record_curves.up, record_curves.along, moved),
-        ends=_ends(record, record_curves, azimuth),
+        record=Curves(of_record.time + shift, of_record.up, of_record.along, moved),
+        ends=_ends(record, of_record, azimuth),
         azimuth=azimuth,
         shift=shift,
         is_aligned=is_aligned,
