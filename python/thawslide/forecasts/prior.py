@@ -20,7 +20,7 @@ from thawslide.number_text import volume_text
 from thawslide.program import find_program
 from thawslide.scores.baseline import LEAST_EVENTS, VOLUME_FACTOR, similar_events
 from thawslide.scores.ensemble import quantiles
-from thawslide.scores.forecast import MOVES, Forecast
+from thawslide.scores.forecast import MOVES, Forecast, moving_note
 from thawslide.sweeps.sensitivity import effective_number
 
 LEAST_MEMBERS = 10  # with H/L
@@ -94,7 +94,7 @@ def check_prior(blocks: Forecast, volume: float, kind: str, is_weighted: bool, b
             f"{blocks.folder}: no member leaves (found {len(stays)} rigid blocks at rest). Lower the friction or the "
             "cohesion in sweep.toml."
         )
-    notes = list(blocks.notes)
+    notes = [note for note in blocks.notes if note != moving_note(blocks)]  # the note of limits counts blocks
     if stays.any():
         what = "they have no weight, because every event left" if is_weighted else "their H/L is that of the release"
         notes.append(f"{stays.sum()} of {len(stays)} blocks do not leave: {what}")

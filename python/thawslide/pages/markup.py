@@ -121,7 +121,8 @@ a:hover { text-decoration: underline; }
 table { border-collapse: collapse; font-size: .93rem; }
 th, td { text-align: left; padding: .32rem 1.4rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { font-weight: 500; }
-.facts td { overflow-wrap: anywhere; }
+.facts th, .facts td { overflow-wrap: anywhere; }
+.facts td { min-width: 8rem; }
 .runs td { color: inherit !important; font-variant-numeric: tabular-nums; }
 .numbers td:nth-child(2) { font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
 details { margin: .8rem 0; }

@@ -53,12 +53,16 @@ def read_forecast(folder: Path) -> Forecast:
     if "travel_distance_m" in columns:
         with np.errstate(divide="ignore"):
             columns.setdefault("mean_speed_m_s", columns["travel_distance_m"] / columns["duration_s"])
-    if moving := int(np.count_nonzero(columns.get(MOVES, 0))):
-        found.notes.append(
-            f"{moving} of {len(found.members)} members still moved at their end: their travel distance and duration "
-            "are lower limits"
-        )
+    if note := moving_note(found):
+        found.notes.append(note)
     return found
+
+
+def moving_note(found: Forecast) -> str:
+    """Return a note on members that still moved at their end; empty if there are none."""
+    moving = int(np.count_nonzero(found.columns.get(MOVES, 0)))
+    words = f"{moving} of {len(found.members)} members still moved at their end: their travel distance and duration"
+    return f"{words} are lower limits" if moving else ""
 
 
 def front_duration(time: Numbers, distance: Numbers) -> float:
