@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from reproduction.engine import processor_time
 from reproduction.studies.grounds import ALR, PLANE, Variant, write_case
 from reproduction.study import Job, Place
 from thawslide.maps import read_map
@@ -42,8 +41,6 @@ class Found:
     left: float  # fraction of the mass that left the DEM
     deposit: float  # area thicker than maps.area_thickness at the end [m2], on the map cell of the case
     inundated: float  # area ever thicker [m2]
-    particles: int
-    processor: float  # [s]
 
 
 @dataclass(frozen=True)
@@ -111,8 +108,6 @@ def read_found(folder: Path) -> Found:
         left=float(history["left_mass_kg"][-1] / history["mass_kg"][0]),
         deposit=float(run.facts["deposit_area_m2"]),
         inundated=float(run.facts["inundated_area_m2"]),
-        particles=int(run.facts["particles"]),
-        processor=processor_time(folder),
     )
 
 

@@ -51,8 +51,6 @@ ROWS: dict[str, Callable[[Found], str]] = {
     "mass that left the DEM": lambda found: f"{100.0 * found.left:.1f} %",
     "deposit area (m2)": lambda found: f"{found.deposit:,.0f}",
     "inundated area (m2)": lambda found: f"{found.inundated:,.0f}",
-    "particles": lambda found: f"{found.particles:,}",
-    "processor time (s)": lambda found: "" if math.isnan(found.processor) else f"{found.processor:,.0f}",
 }
 
 
