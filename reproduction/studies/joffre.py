@@ -25,12 +25,12 @@ LAWS = ("coulomb", "voellmy")
 RELEASES = {"lower": "x=539670,y=5576820,dip=35,direction=30", "upper": "x=539510,y=5576840,dip=35,direction=30"}
 VOLUME = 2_500_000  # m3
 QUANTILES = (0.1, 0.5, 0.9)
-# Settings of --quick: text of a file, and its replacement.
-COARSE = (
+Changes = tuple[tuple[str, str], ...]  # texts of a file, and their replacements
+COARSE: Changes = (
     ("cell = 12.0", "cell = 24.0"),
     ("max = [542960.0, 5581956.0, 2800.0]", "max = [542960.0, 5581944.0, 2800.0]"),
-    ('sample = "lhs:24"', 'sample = "lhs:2"'),
 )
+FEW: Changes = (('sample = "lhs:24"', 'sample = "lhs:2"'),)
 
 
 def call(module: str, *words: str | Path) -> None:
@@ -43,21 +43,27 @@ def call(module: str, *words: str | Path) -> None:
         raise StudyError(f"{module}: exit code {code}")
 
 
-def prepare(data: Path, runs: Path, is_quick: bool = False) -> None:
-    """Build the releases, and copy the cases and the ensembles next to them."""
+def prepare(data: Path, runs: Path, changes: Changes = ()) -> None:
+    """Build the releases, and copy the cases and the ensembles next to them, with changes."""
     for name, plane in RELEASES.items():
         folder = runs / name
-        folder.mkdir(parents=True, exist_ok=True)
-        if not (folder / "release.tif").exists():
-            write_filtered(data / DEM, folder / TERRAIN)
-            outline, release = CASES / f"{name}.geojson", folder / "release.tif"
-            words = ("--plane", plane, "--within", outline, "--volume", str(VOLUME), "--output", release, "--overwrite")
-            call("thawslide.scarps.command", folder / TERRAIN, *words)
+        build_release(data / DEM, folder, CASES / f"{name}.geojson", plane)
         shutil.copyfile(CASES / "path.geojson", folder / "path.geojson")
         for law in LAWS:
-            copy_text(CASES / f"{law}.toml", folder / f"{law}.toml", is_quick)
+            copy_text(CASES / f"{law}.toml", folder / f"{law}.toml", changes)
     for law in LAWS:
-        copy_text(CASES / f"{law}-sweep.toml", runs / f"{law}-sweep.toml", is_quick)
+        copy_text(CASES / f"{law}-sweep.toml", runs / f"{law}-sweep.toml", changes)
+
+
+def build_release(dem: Path, folder: Path, outline: Path, plane: str) -> None:
+    """Write the filtered DEM, and the release above a plane within an outline, unless they exist."""
+    release = folder / "release.tif"
+    if release.exists():
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    write_filtered(dem, folder / TERRAIN)
+    words = ("--plane", plane, "--within", outline, "--volume", str(VOLUME), "--output", release, "--overwrite")
+    call("thawslide.scarps.command", folder / TERRAIN, *words)
 
 
 def write_filtered(dem: Path, path: Path) -> None:
@@ -71,10 +77,10 @@ def write_filtered(dem: Path, path: Path) -> None:
         file.write(gaussian_filter(heights, FILTER / profile["transform"].a, mode="nearest"), 1)
 
 
-def copy_text(source: Path, target: Path, is_quick: bool) -> None:
-    """Copy a file, with the settings of --quick if requested."""
+def copy_text(source: Path, target: Path, changes: Changes) -> None:
+    """Copy a file, with changes."""
     text = source.read_text(encoding="utf-8")
-    for old, new in COARSE if is_quick else ():
+    for old, new in changes:
         text = text.replace(old, new)
     target.write_text(text, encoding="utf-8")
 

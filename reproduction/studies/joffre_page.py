@@ -29,7 +29,13 @@ from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, RED, styled
 from thawslide.maps import Map, read_map
 
 HEADING = "## Forecast"
-NAMES = {"coulomb": "Coulomb", "voellmy": "Voellmy", "all": "both laws"}
+NAMES = {
+    "coulomb": "Coulomb",
+    "voellmy": "Voellmy",
+    "all": "both laws",
+    "blind": "blind forecast, coarse cells",
+    "frozen": "frozen prior, weighted",
+}
 COLOURS = {"coulomb": BLUE, "voellmy": RED, "all": BLACK}
 # Columns of the table of members: heading, unit factor and decimals.
 ROWS = {
@@ -77,11 +83,14 @@ def state_text(table: pd.DataFrame, total: int) -> str:
 
 
 @styled
-def probability_figure(maps: dict[str, Map], release: dict[str, Map], terrain: Map) -> Figure:
-    """Map the probability of being reached over the hillshade, by law and for both."""
+def probability_figure(
+    maps: dict[str, Map], release: dict[str, Map], terrain: Map, reach: tuple[float, float] | None = None
+) -> Figure:
+    """Map the probability of being reached over the hillshade, by law and for both; reach: an observed end."""
     boxes = [box for field in maps.values() if (box := covered_box(field)) is not None]
     scene = make_scene(terrain, box_about(boxes))
-    note = f"Reached: flow thickness above 0.5 m. White outlines: releases. {scene.note()}"
+    mark = " Cross: observed reach." if reach else ""
+    note = f"Reached: flow thickness above 0.5 m. White outlines: releases.{mark} {scene.note()}"
     page = MapPage("Probability of being reached", scene, len(maps), note=note, foot=0.1, bar=0.72)
     painter, panels = ScalarMappable(Normalize(0.0, 1.0), colour_map("YlOrRd")), []
     for number, (name, whole) in enumerate(maps.items()):
@@ -90,6 +99,8 @@ def probability_figure(maps: dict[str, Map], release: dict[str, Map], terrain: M
         paint(axes, replace(field, values=np.where(field.values > 0.0, field.values, np.nan)), painter)
         for thickness in release.values():
             outline(axes, thickness.cropped(scene.box), 0.5, colors="white", linewidths=1.0)
+        if reach:
+            axes.plot(*reach, "X", color=BLUE, markeredgecolor="white", ms=9, zorder=10)
         page.figure.colorbar(painter, cax=page.panel_bar(axes)).set_label("probability", labelpad=2)
         panels.append((axes, NAMES[name], ""))
         if number == 0:
@@ -122,7 +133,7 @@ def write(place: Place) -> None:
     """Run the missing members, plot the figures, and replace the forecast of the page."""
     runs, page = place.runs, place.page("docs/blind/joffre.md")
     if not place.draws_only:
-        joffre.prepare(place.data / "joffre", runs, place.is_quick)
+        joffre.prepare(place.data / "joffre", runs, (*joffre.COARSE, *joffre.FEW) if place.is_quick else ())
         for law in joffre.LAWS:
             joffre.run_ensemble(law, runs, place.at_a_time)
     table = joffre.members(runs)

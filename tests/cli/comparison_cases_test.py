@@ -8,7 +8,7 @@ from conftest import ROOT, Program
 
 sys.path.append(str(ROOT))
 
-from reproduction.studies import frank, joffre, refinement
+from reproduction.studies import frank, joffre, joffre_judged, refinement
 from reproduction.study import Job, Place
 
 DATA = ROOT.parent / "shared" / "data"
@@ -41,6 +41,17 @@ def test_each_case_of_the_blind_forecast_is_valid_and_releases_its_volume(thawsl
     joffre.prepare(DATA / "joffre", tmp_path)
     for case in [tmp_path / release / f"{law}.toml" for release in joffre.RELEASES for law in joffre.LAWS]:
         assert "2,500,000 m3" in thawslide.ok("check", case)
+
+
+def test_each_case_of_the_judged_forecast_is_valid(thawslide: Program, binary: Path, tmp_path: Path) -> None:
+    needs("joffre", "frank")
+    for job in joffre_judged.jobs(Place(binary, tmp_path, tmp_path)):
+        if job.subcommand == "run":
+            assert "2,500,000 m3" in thawslide.ok("check", job.case, *options(job))
+    for name, volume in (("lower", "2,500,000 m3"), ("upper", "2,500,000 m3"), ("frank", "36,000,000 m3")):
+        assert volume in thawslide.ok("check", tmp_path / name)
+        prior = (tmp_path / name / "sweep.toml").read_text(encoding="utf-8")
+        assert prior == joffre_judged.PRIOR.read_text(encoding="utf-8")
 
 
 def test_short_run_of_the_frank_slide_has_the_pile_on_the_grid_of_shaltop(thawslide: Program, tmp_path: Path) -> None:
