@@ -1,7 +1,6 @@
 // Commands of the program. Each returns an exit code (ExitCode), or throws UserError.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -74,7 +73,7 @@ struct NewOptions {
   double reach_angle = config::usual_reach_angle;  // degrees
   double cell = 0.0;                               // m; 0: from the resolution
   std::string resolution;                          // a name of config::resolutions; empty: quick
-  std::map<std::string, std::string> outlines;     // files of polygons by config::proposed_substrates; empty: none
+  config::Outlines outlines;  // files of polygons by the names of config::proposed_substrates; empty: none
 };
 int make_new_case(const NewOptions& options);
 

@@ -266,22 +266,6 @@ std::string taper_text(const EdgeTaper& taper) {
       number_text(taper.width));
 }
 
-std::string substrates_text(const std::map<std::string, std::string>& outlines) {
-  std::string text;
-  for (const ProposedSubstrate& each : proposed_substrates) {
-    if (const auto outline = outlines.find(each.name); outline != outlines.end()) {
-      text += fmt::format(R"(
-[substrate.{}]
-outline = {}
-friction = "coefficient"  # a fraction of the normal stress; it contains the pore pressure
-friction_coefficient = {}  # assumed: {} to {}
-)",
-                          each.name, quoted(outline->second), each.coefficient, each.low, each.high);
-    }
-  }
-  return text;
-}
-
 std::string point_text(const Point& point) {
   return fmt::format("[{}, {}, {}]", number_text(point[0]), number_text(point[1]), number_text(point[2]));
 }
@@ -330,7 +314,7 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text(input.base)),
-      fmt::arg("substrates", substrates_text(input.outlines)),
+      fmt::arg("substrates", substrate_tables(input.outlines)),
       fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
       fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
       fmt::arg("filter", number_text(input.filter)),

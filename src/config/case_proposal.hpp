@@ -3,13 +3,13 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "config/resolution.hpp"
+#include "config/substrate_proposal.hpp"
 #include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
@@ -30,29 +30,18 @@ struct ProposedBase {
   double missing_cohesion = 0.0;  // for equilibrium at the start [Pa]; 0: none
 };
 
-// Ground of which a new case may have polygons: name of its table [substrate.NAME], option of `new`, and friction
-// coefficient with its range. All are assumptions: these coefficients contain the pore pressure of events.
-struct ProposedSubstrate {
-  const char *name, *option;
-  double coefficient, low, high;
-};
-inline constexpr std::array<ProposedSubstrate, 3> proposed_substrates{
-    {{"glacier", "--glacier", 0.1, 0.05, 0.15},
-     {"snow", "--snow", 0.15, 0.05, 0.25},
-     {"valley_floor", "--valley-floor", 0.2, 0.1, 0.3}}};
-
 // User input and facts from the files.
 struct ProposalInput {
   std::string title;
   std::string dem_file, release_file;  // as named in the case; no release_file if a raster specifies the release
   MapValue thickness;
   Placement placement = Placement::on_top;
-  EdgeTaper taper;                              // of an excavated release
-  double reach_angle = usual_reach_angle;       // degrees
-  double largest_volume = 0.0;                  // m3, confirmed; 0: default of the parameter
-  double filter = 0.0;                          // m: standard deviation of the filter of the DEM
-  std::optional<ProposedBase> base;             // none if the block has no path
-  std::map<std::string, std::string> outlines;  // files of polygons, as named in the case, by proposed substrate
+  EdgeTaper taper;                         // of an excavated release
+  double reach_angle = usual_reach_angle;  // degrees
+  double largest_volume = 0.0;             // m3, confirmed; 0: default of the parameter
+  double filter = 0.0;                     // m: standard deviation of the filter of the DEM
+  std::optional<ProposedBase> base;        // none if the block has no path
+  Outlines outlines;
 };
 
 struct Proposal {

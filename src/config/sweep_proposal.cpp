@@ -36,22 +36,10 @@ std::string cells_text(const std::optional<Proposal>& quick) {
                      number_text(quick->cell), point(quick->min), point(quick->max));
 }
 
-std::string substrates_text(const std::map<std::string, std::string>& outlines) {
-  std::string text;
-  for (const ProposedSubstrate& each : proposed_substrates) {
-    if (outlines.count(each.name) > 0) {
-      text +=
-          fmt::format("# Fraction of the normal stress. Assumed.\n\"substrate.{}.friction_coefficient\" = [{}, {}]\n",
-                      each.name, each.low, each.high);
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick,
-                       const std::map<std::string, std::string>& outlines) {
+                       const Outlines& outlines) {
   constexpr double least_friction = 20.0, most_friction = 35.0;  // degrees
   constexpr double thinnest_band = 0.1, thickest_band = 1.0;     // m
   constexpr double low_ratio = 0.6, band_ratio = 0.05;
@@ -95,7 +83,7 @@ seed = 1
 # What lies on the path decides as well. Polygons of a glacier, snow or the valley floor are options of `thawslide new`.
 # If it can be entrained, add [bed] to the case.
 )",
-      fmt::arg("cells", cells_text(quick)), fmt::arg("substrates", substrates_text(outlines)),
+      fmt::arg("cells", cells_text(quick)), fmt::arg("substrates", substrate_ranges(outlines)),
       fmt::arg("least", least_friction), fmt::arg("most", most_friction), fmt::arg("steepest", base.friction),
       fmt::arg("low_ratio", low_ratio), fmt::arg("low", low), fmt::arg("high", high), fmt::arg("thin", thin),
       fmt::arg("thick", thick), fmt::arg("thickness", rounded_text(thickness, 3)),

@@ -1,7 +1,6 @@
 // Initial sweep.toml of a new case: ranges of the keys of the base that `thawslide new` proposes (case_proposal.hpp).
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -12,6 +11,6 @@ namespace thawslide::config {
 // Sweep file with comments. thickness: of the release [m]. base: of the case. quick: proposal on cells of `quick`, if
 // those of the case are others. outlines: by proposed substrate.
 [[nodiscard]] std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick,
-                                     const std::map<std::string, std::string>& outlines = {});
+                                     const Outlines& outlines = {});
 
 }  // namespace thawslide::config
