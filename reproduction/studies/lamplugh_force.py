@@ -198,8 +198,8 @@ def sweep_row(place: Place) -> str:
     found = np.array([fit.correlation for fit in fits if np.isfinite(fit.correlation)])
     low, middle, high = np.quantile(found, (0.05, 0.5, 0.95))
     return (
-        f"Of {len(folders)} members, {len(found)} have a correlation: 5 % of them are below {low:.2f}, half below "
-        f"{middle:.2f}, and 5 % above {high:.2f}."
+        f"Of {len(found)} members that moved, 5 % have a correlation below {low:.2f}, half below {middle:.2f}, and 5 % "
+        f"above {high:.2f}."
     )
 
 
