@@ -32,7 +32,6 @@ from thawslide.sweeps.folder import PRIOR_FILE
 from thawslide.sweeps.probability import rasters_in, write_probability_maps
 from thawslide.sweeps.results import TABLE
 
-
 Rows = list[dict[str, Any]]
 CASES = Path(__file__).resolve().parent / "cases"
 PRIOR = CASES / "frozen-prior.toml"
