@@ -2,8 +2,8 @@
 
 import pytest
 
-from reproduction.study import StudyError
 from reproduction.studies.tutorials import SWEEP_FIGURES, image_of
+from reproduction.study import StudyError
 from thawslide.pages.markup import data_address, figure_part
 
 
