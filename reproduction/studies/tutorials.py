@@ -24,7 +24,7 @@ RUNS: dict[str, tuple[str, str, str, tuple[str, ...]]] = {
 SWEEP = "valley3d-sweep"
 SWEEP_OPTIONS = (
     "--set grid.cell=50 --set maps.cell=50 --range basal.friction_angle=35:45 "
-    "--range basal.residual_cohesion=0.5e5:2e5 --range basal.slip_distance=300:900 --seed 1"
+    "--range basal.residual_cohesion=0.9e5:2e5 --range basal.slip_distance=300:900 --seed 1"
 )
 SWEEP_FIGURES = {"Probability maps": "valley-probability", "Sensitivity of travel distance": "valley-sensitivity"}
 QUICK = "time.end=2"
