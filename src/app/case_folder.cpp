@@ -8,7 +8,10 @@
 
 #include "app/print.hpp"
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
+#include "config/read_case.hpp"
+#include "run/block_model.hpp"
 #include "run/warnings.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
@@ -50,6 +53,26 @@ gis::Rectangle span_of_dem(const std::string& dem) {
 }
 
 }  // namespace
+
+std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
+  try {
+    return run::propose_base(config::read_case(folder));
+  } catch (const UserError&) {
+    return {};
+  }
+}
+
+std::string base_text(const config::ProposedBase& base) {
+  std::string text =
+      fmt::format("base:        a band of {:.1f} m, which a rigid block without pore pressure heats to {:.0f} C",
+                  base.thickness, base.temperature);
+  if (base.missing_cohesion > 0.0) {
+    text +=
+        fmt::format("\n             safety factor {:.2g} at the start: {} Pa of cohesion would have held the release",
+                    base.safety_factor, rounded_text(base.missing_cohesion, 2));
+  }
+  return text + "\n";
+}
 
 config::Case trial_case(const std::string& folder, const MapOptions& maps) {
   if (!maps.release.empty() && gis::is_raster_file(maps.release) && fs::is_regular_file(maps.dem) &&

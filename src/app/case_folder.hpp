@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/commands.hpp"
 #include "config/case.hpp"
+#include "config/case_proposal.hpp"
 #include "config/site.hpp"
 #include "config/taper_proposal.hpp"
 
@@ -35,6 +37,12 @@ void require_utf8(const std::string& what, const std::string& name);
 
 // Last component of a folder's path.
 std::string title_of(const std::filesystem::path& folder);
+
+// Base of the case in a folder by the rigid block, or nothing if it has no path.
+std::optional<config::ProposedBase> base_by_block(const std::filesystem::path& folder);
+
+// Lines that state a proposed base.
+std::string base_text(const config::ProposedBase& base);
 
 // Creates the folder. Throws UserError if it exists and is not empty.
 void make_new_folder(const std::filesystem::path& folder);

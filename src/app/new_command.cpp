@@ -14,7 +14,6 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
-#include "run/block_model.hpp"
 #include "run/input_files.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
@@ -216,27 +215,6 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {}\n{}",
       chosen.empty() ? "" : chosen + ", ", proposal.cell, errors, rounded_text(proposal.particles),
       rounded_text(cost.steps), run::text_of(cost), others);
-}
-
-// Base by the rigid block, or nothing if it has no path.
-std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
-  try {
-    return run::propose_base(config::read_case(folder));
-  } catch (const UserError&) {
-    return {};
-  }
-}
-
-std::string base_text(const config::ProposedBase& base) {
-  std::string text =
-      fmt::format("base:        a band of {:.1f} m, which a rigid block without pore pressure heats to {:.0f} C",
-                  base.thickness, base.temperature);
-  if (base.missing_cohesion > 0.0) {
-    text +=
-        fmt::format("\n             safety factor {:.2g} at the start: {} Pa of cohesion would have held the release",
-                    base.safety_factor, rounded_text(base.missing_cohesion, 2));
-  }
-  return text + "\n";
 }
 
 // Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors

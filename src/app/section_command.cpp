@@ -163,9 +163,14 @@ int make_section(const SectionOptions& options) {
   make_new_folder(folder);
   io::write_profile_csv(folder / profile_name, cut.profile, comments);
   write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
+  const auto base = base_by_block(folder);
+  write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal, base));
   fmt::print("{}: a release of {} m3 per metre of width, {} m thick, on {} m cells: about {} particles\n",
              (folder / "case.toml").string(), rounded_text(proposal.volume, 3), rounded_text(proposal.thickness, 3),
              proposal.cell, rounded_text(proposal.particles));
+  if (base) {
+    fmt::print("{}", base_text(*base));
+  }
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }

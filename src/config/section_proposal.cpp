@@ -45,7 +45,8 @@ Proposal propose_section(const ProfileTable& profile, const SurfaceBody& body) {
   return proposal;
 }
 
-std::string section_text(const std::string& title, const std::string& profile_file, const Proposal& proposal) {
+std::string section_text(const std::string& title, const std::string& profile_file, const Proposal& proposal,
+                         const std::optional<ProposedBase>& base) {
   return fmt::format(
       R"(# Made by `thawslide section`. Every number may be changed; `thawslide describe` lists all keys.
 #
@@ -78,7 +79,7 @@ shape = "surface"  # between terrain_elevation_m and surface_elevation_m of the 
       fmt::arg("min_x", number_text(proposal.min[0])), fmt::arg("min_y", number_text(proposal.min[1])),
       fmt::arg("max_x", number_text(proposal.max[0])), fmt::arg("max_y", number_text(proposal.max[1])),
       fmt::arg("profile", quoted(profile_file)), fmt::arg("state", body_state_text(proposal)),
-      fmt::arg("physics", physics_text()));
+      fmt::arg("physics", physics_text(base)));
 }
 
 }  // namespace thawslide::config

@@ -1,6 +1,7 @@
 // Initial 2D case for a section from a DEM.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "config/case_proposal.hpp"
@@ -24,6 +25,6 @@ struct SurfaceBody {
 
 // Case file with comments; `profile_file` as named in the case.
 [[nodiscard]] std::string section_text(const std::string& title, const std::string& profile_file,
-                                       const Proposal& proposal);
+                                       const Proposal& proposal, const std::optional<ProposedBase>& base = {});
 
 }  // namespace thawslide::config

@@ -11,6 +11,6 @@ namespace thawslide::config {
 // Sweep file with comments. thickness: of the release [m]. base: of the case. quick: proposal on cells of `quick`, if
 // those of the case are others. outlines: by proposed substrate.
 [[nodiscard]] std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick,
-                                     const Outlines& outlines = {});
+                                     const Outlines& outlines);
 
 }  // namespace thawslide::config

@@ -105,6 +105,33 @@ std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Ob
   return rows;
 }
 
+// Base whose band is the thinnest that config::ProposedBase allows. run(): rows of the block of `parameters`. end: of
+// the known terrain [m].
+template <class Run>
+config::ProposedBase thinnest_band(config::Case& parameters, double end, const Run& run) {
+  config::ProposedBase base;
+  parameters.mechanisms.pressurization = false;
+  for (const double thickness : config::ProposedBase::candidates) {
+    parameters.band.thickness.table = Table(thickness);
+    double warmest = -HUGE_VAL;
+    const auto rows = run();
+    for (const sim::HistoryRow& row : rows) {
+      if (value_of(row, "front_position_m") <= end) {
+        warmest = std::max(warmest, value_of(row, "band_temperature_C"));
+      }
+    }
+    if (thickness != config::ProposedBase::candidates.front() && warmest > config::ProposedBase::limit) {
+      break;
+    }
+    const double driving = std::abs(value_of(rows.front(), "driving_traction_Pa"));
+    const double strength = value_of(rows.front(), "sliding_strength_Pa");
+    const double friction = std::atan(driving / value_of(rows.front(), "normal_pressure_Pa"));
+    base = {thickness, warmest, friction * 180.0 / std::numbers::pi, strength / driving,
+            std::max(0.0, driving - strength)};
+  }
+  return base;
+}
+
 }  // namespace
 
 double value_of(const sim::HistoryRow& row, const std::string& name) {
@@ -123,7 +150,12 @@ std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer
                                                              : block_on_profile(parameters, observer);
 }
 
-config::ProposedBase propose_base(const config::Case& parameters) {
+config::ProposedBase propose_base(config::Case parameters) {
+  parameters.substrates.clear();
+  if (parameters.terrain.kind != config::TerrainKind::dem) {
+    const double end = config::read_profile(parameters.terrain.file).distance.back();
+    return thinnest_band(parameters, end, [&] { return sim::run_block(parameters); });
+  }
   class Silent : public Observer {
     void text(const std::string& /*line*/) override {}
     void error(const std::string& /*line*/) override {}
@@ -131,27 +163,9 @@ config::ProposedBase propose_base(const config::Case& parameters) {
   Warnings warnings(&silent);
   sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   const double end = section.pit ? section.pit->along : section.site.profile.distance.back();
-  config::ProposedBase base;
-  section.parameters.mechanisms.pressurization = false;
-  for (const double thickness : config::ProposedBase::candidates) {
-    section.parameters.band.thickness.table = Table(thickness);
-    double warmest = -HUGE_VAL;
-    const auto rows = sim::run_block(section.parameters, section.site, section.valley_factor, section.start);
-    for (const sim::HistoryRow& row : rows) {
-      if (value_of(row, "front_position_m") <= end) {
-        warmest = std::max(warmest, value_of(row, "band_temperature_C"));
-      }
-    }
-    if (thickness != config::ProposedBase::candidates.front() && warmest > config::ProposedBase::limit) {
-      break;
-    }
-    const double driving = std::abs(value_of(rows.front(), "driving_traction_Pa"));
-    const double strength = value_of(rows.front(), "sliding_strength_Pa");
-    const double friction = std::atan(driving / value_of(rows.front(), "normal_pressure_Pa"));
-    base = {thickness, warmest, friction * 180.0 / std::numbers::pi, strength / driving,
-            std::max(0.0, driving - strength)};
-  }
-  return base;
+  return thinnest_band(section.parameters, end, [&] {
+    return sim::run_block(section.parameters, section.site, section.valley_factor, section.start);
+  });
 }
 
 }  // namespace thawslide::run

@@ -18,7 +18,7 @@ namespace thawslide::run {
 // the terrain ends the motion. Throws UserError.
 [[nodiscard]] std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer);
 
-// Base of a new case on a DEM: the thinnest band that config::ProposedBase allows. Throws UserError.
-[[nodiscard]] config::ProposedBase propose_base(const config::Case& parameters);
+// Base [basal] of a new case: the thinnest band that config::ProposedBase allows, without substrates. Throws UserError.
+[[nodiscard]] config::ProposedBase propose_base(config::Case parameters);
 
 }  // namespace thawslide::run

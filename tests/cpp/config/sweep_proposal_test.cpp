@@ -24,7 +24,7 @@ ProposedBase base_of(double band, double steepest) {
 }
 
 toml::table sweep_of(double thickness, double steepest, double band = 0.2) {
-  return toml::parse(sweep_text(thickness, base_of(band, steepest), {}));
+  return toml::parse(sweep_text(thickness, base_of(band, steepest), {}, {}));
 }
 
 TEST(SweepProposal, FrictionIsAtMostThatOfTheBlock) {
@@ -62,7 +62,7 @@ TEST(SweepProposal, MembersHaveTheCellsOfQuick) {
   quick.cell = 12.0;
   quick.min = {0.0, 24.0, 48.0};
   quick.max = {480.0, 504.0, 528.0};
-  const toml::table text = toml::parse(sweep_text(30.0, base_of(0.2, 30.0), quick));
+  const toml::table text = toml::parse(sweep_text(30.0, base_of(0.2, 30.0), quick, {}));
   EXPECT_EQ(text["sweep"]["set"]["grid.cell"].value<double>(), 12.0);
   EXPECT_EQ(number(text, "set", "grid.min", 1), 24.0);
   EXPECT_EQ(number(text, "set", "grid.max", 2), 528.0);
