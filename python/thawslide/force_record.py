@@ -17,6 +17,7 @@ from thawslide.targets import Band
 from thawslide.text_files import MEGABYTE, finite_number, read_table
 
 PARTS = ("up", "north", "east")
+LEAST_MAXIMUM = 0.1
 _ENDS = ("low", "high")
 _COLUMNS = ("time_s", *(f"{part}_N" for part in PARTS))
 _OF_RANGE = tuple(f"{part}_{end}_N" for part in PARTS for end in _ENDS)
@@ -131,11 +132,13 @@ def extreme_times(time: Numbers, up: Numbers, along: Numbers) -> dict[str, float
     """Return the times [s] of the extremes of a force [N]; nan for those that it does not have.
 
     `downward`: largest downward value; `upward`: last upward maximum before it; `dip`: lowest minimum between the first
-    upward maximum and the last; `along`: maximum magnitude in the direction of travel.
+    upward maximum and the last; `along`: maximum magnitude in the direction of travel. Maxima below LEAST_MAXIMUM of
+    the largest are those of the filter.
     """
     bottom = int(np.argmin(up))
     inner = np.arange(1, max(bottom, 1))
-    tops = inner[(up[inner] > 0.0) & (up[inner] >= up[inner - 1]) & (up[inner] > up[inner + 1])]
+    is_large = up[inner] > LEAST_MAXIMUM * np.max(np.abs(up))
+    tops = inner[is_large & (up[inner] >= up[inner - 1]) & (up[inner] > up[inner + 1])]
     dip = tops[0] + int(np.argmin(up[tops[0] : tops[-1] + 1])) if tops.size > 1 else None
     return {
         "dip": float("nan") if dip is None else _vertex(time, up, dip),

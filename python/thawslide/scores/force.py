@@ -41,12 +41,19 @@ def compare_forces(
     aligned = [best_alignment(each) for each in found]
     shifts, correlations = np.array(aligned).T
     times = extreme_times(curves.time - found[0].shift, curves.up, curves.along)
-    of_members = [extreme_times(each.run.time, each.run.up, each.run.along) for each in found]
+    of_members = [times_in_record(each, shift) for each, shift in zip(found, shifts, strict=True)]
     for name, quantity in FORCE_TIMES.items():
         if np.isfinite(times[name]):
             value = Observation("force_record", quantity.words, quantity, times[name], 0.0, "s", record.source)
-            pairs.append((value, np.array([each[name] for each in of_members]) - shifts))
+            pairs.append((value, np.array([each[name] for each in of_members])))
     return pairs, {"force_correlation": correlations, "force_shift_s": shifts}
+
+
+def times_in_record(found: Comparison, shift: float) -> dict[str, float]:
+    """Return the times [s] of the run's extremes within the record, as times of the record: `shift` less."""
+    at = found.record.time - found.shift
+    up, along = (np.interp(at + shift, found.run.time, part, 0.0, 0.0) for part in (found.run.up, found.run.along))
+    return extreme_times(at, up, along)
 
 
 def best_alignment(found: Comparison) -> tuple[float, float]:
