@@ -48,6 +48,12 @@ def spread_of(row: dict[str, Any], prefix: str = "") -> str:
     return ", ".join(text(row[f"{prefix}{name}"]) for name in ("low", "median", "high"))
 
 
+def percentile_text(row: dict[str, Any]) -> str:
+    """Return the percentile of an observation, and those of the ends of its range if they differ."""
+    middle, low, high = (f"{row[f'members_percentile{end}']:.0f}" for end in ("", "_low", "_high"))
+    return middle if low == high else f"{middle} ({low} to {high})"
+
+
 def score_table(rows: Rows) -> str:
     """Return the scores of all forecasts."""
     lines = ["forecast | quantity | observed | P5, P50, P95 | percentile | CRPS | CRPS of events | CRPS of 23 events"]
@@ -57,7 +63,7 @@ def score_table(rows: Rows) -> str:
         lines.append(
             f"{NAMES[row['forecast']]} | {row['words']} | {text(row['observed'])}{spread}{unit} | "
             f"{spread_of(row, 'members_')} | "
-            f"{row['members_percentile']:.0f} | {text(row['members_crps'])} | {text(row['events_crps'])} | "
+            f"{percentile_text(row)} | {text(row['members_crps'])} | {text(row['events_crps'])} | "
             f"{text(row.get('table_crps'))}"
         )
     return markdown(lines)
