@@ -29,6 +29,7 @@ from thawslide.pages.results import extent, results
 from thawslide.pages.section_view import section_view
 from thawslide.pages.view import scripts
 from thawslide.run_folder import Run
+from thawslide.scores.output import REPORT, stored_section
 from thawslide.targets import KINDS
 from thawslide.time_reference import time_note
 
@@ -71,7 +72,7 @@ def make_report(
     """
     output = output or run.folder
     _ = run.series, run.facts, run.targets  # required by every page: errors precede the figures
-    report = Report(output / "report.html")
+    report = Report(output / REPORT)
     if (output / "figures").is_symlink():
         raise ReportError(f"{output / 'figures'}: a link, not a folder. Remove the link.")
     try:
@@ -169,6 +170,7 @@ def _page(run: Run, report: Report, say: Messages, shown: str, view: str) -> str
     numbers.insert(0, _links([*links, *((name, _heading(name)) for name in of_results)]))
     parts = [
         results(run, say, shown),
+        stored_section(run.folder),
         details(say("details_numbers"), "\n".join(numbers), "numbers"),
         details(say("details_diagnosis"), "\n".join(_diagnosis(run, report, figures)), "diagnosis"),
     ]

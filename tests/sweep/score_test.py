@@ -14,6 +14,7 @@ from thawslide.figures.force_record import Comparison, Curves
 from thawslide.force_record import extreme_times
 from thawslide.number_text import area_text, number_text
 from thawslide.pages.events import published_events
+from thawslide.report_page import make_report
 from thawslide.scores.baseline import baseline_values, similar_events
 from thawslide.scores.command import main
 from thawslide.scores.ensemble import percentile
@@ -258,6 +259,12 @@ def test_a_single_run_has_differences(plane: Path, tmp_path: Path, capfd: pytest
     assert row["difference"] == pytest.approx(speed - 9.0) and row["members_crps"] == pytest.approx(abs(speed - 9.0))
     out = capfd.readouterr().out
     assert "| quantity   | observed  | run " in out and "percentile" not in out.split("events")[0]
+    page = tmp_path / "run" / "report.html"
+    assert f"note: {page}: not changed. To write it with the score, repeat thawslide report." in out
+    make_report(found, names=["motion"])
+    assert "<h2>Score</h2>" in page.read_text()
+    scored(tmp_path / "run", '[peak_speed]\nvalue = 7\nunit = "m/s"\nuncertainty = 1\n')
+    assert "7 ± 1 m/s" in page.read_text() and f"score: {page}\n" in capfd.readouterr().out
 
 
 def test_the_correlation_is_that_of_both_components_at_the_times_of_the_record() -> None:

@@ -12,7 +12,7 @@ from thawslide.commands import print_line
 from thawslide.errors import ReportError
 from thawslide.scores.forecast import read_forecast
 from thawslide.scores.observed import read_observed
-from thawslide.scores.output import renew_section, write_score
+from thawslide.scores.output import REPORT, renew_section, write_score
 from thawslide.scores.score import compute_score
 from thawslide.sweeps.page import NAME
 
@@ -28,12 +28,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     for line in [*text.split("\n"), "", *(f"note: {note}" for note in score.notes)]:
         print_line(line)
-    page = given.forecast / NAME
-    if score.forecast.is_sweep and given.output is None:
-        if renew_section(page):
-            files.append(page)
+    page, writer = (NAME, "the command of the sweep") if score.forecast.is_sweep else (REPORT, "thawslide report")
+    if given.output is None:
+        if renew_section(given.forecast / page):
+            files.append(given.forecast / page)
         else:
-            print_line(f"note: {page}: not changed. To write it with the score, repeat the command of the sweep.")
+            print_line(f"note: {given.forecast / page}: not changed. To write it with the score, repeat {writer}.")
     for path in files:
         print_line(f"score: {path}")
     return 0

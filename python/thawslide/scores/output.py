@@ -24,6 +24,7 @@ from thawslide.text_files import MEGABYTE, read_json
 
 JSON, CSV, MEMBERS, PAGE = "score.json", "score.csv", "score-members.csv", "score.md"
 FILES = (JSON, CSV, MEMBERS, PAGE)
+REPORT = "report.html"  # of a run
 BEGIN, END = "<!-- score -->", "<!-- end of the score -->"  # around the section of a page
 _NO_EVENTS = Distribution(0, *[math.nan] * 7)
 _MEANINGS = (
