@@ -20,7 +20,8 @@ from thawslide.figures.force_record import Comparison, Curves, compared, filtere
 from thawslide.figures.style import without_title
 from thawslide.force_record import ForceRecord, extreme_times, read_force_record
 from thawslide.run_folder import Run
-from thawslide.scores.force import best_alignment
+from thawslide.scores.force import best_alignment, times_in_record
+from thawslide.scores.forecast import read_forecast
 from thawslide.targets import Band
 from thawslide.text_files import MEGABYTE, finite_number, read_table
 
@@ -41,6 +42,7 @@ JOBS = (
     Job("glacier", "glacier as in the case, 0.105", ("substrate.glacier.friction_coefficient=0.105",), FIT),
 )  # fmt: skip
 POINTS, SAMPLES, STEP, END = 24, 256, 0.05, 160.0  # of the null models; s
+ONSET, NEAR = -1.0, 10.0  # s: start of the record's force; time before it that is near
 GLACIER_X = 2190.0  # m: start of the glacier
 
 
@@ -83,9 +85,8 @@ def record() -> ForceRecord:
 def fit_of(found: Comparison) -> Fit:
     """Return the agreement of a force with the record, at the shift of best correlation."""
     shift, correlation = best_alignment(found)
-    times = extreme_times(found.run.time, found.run.up, found.run.along)
     force = float(np.max(np.abs(found.run.up)))
-    return Fit(correlation, shift, {name: time - shift for name, time in times.items()}, force)
+    return Fit(correlation, shift, times_in_record(found, shift), force)
 
 
 def fit_of_motion(motion: Motion, sample: int) -> Fit:
@@ -111,6 +112,11 @@ def null_fit(null: Null, samples: int = SAMPLES) -> tuple[Fit, str]:
     x, terrain, surface = columns_of(
         CASE / "lamplugh_profile.csv", ("distance_m", "terrain_elevation_m", "surface_elevation_m")
     )
+    slope = (terrain[-1] - terrain[-2]) / (x[-1] - x[-2])
+    beyond = x[-1] + np.arange(1, 400) * (x[-1] - x[-2]) * 10.0  # points do not reach the end of the profile
+    surface = np.concatenate((surface, terrain[-1] + slope * (beyond - x[-1])))
+    terrain = np.concatenate((terrain, terrain[-1] + slope * (beyond - x[-1])))
+    x = np.concatenate((x, beyond))
     share = np.cumsum(surface - terrain) / np.sum(surface - terrain)
     order = (np.arange(POINTS) + 0.5) / POINTS
     start_x = np.interp(order, share, x)[order > 1.0 - null.kept]
@@ -133,11 +139,19 @@ def null_fit(null: Null, samples: int = SAMPLES) -> tuple[Fit, str]:
 def cells_of(words: str, fit: Fit, *more: str) -> list[str]:
     """Return a row of a table."""
     times = [f"{fit.times[name]:.1f}" if np.isfinite(fit.times[name]) else "none" for name in TIMES]
-    return [words, f"{fit.correlation:.2f}", *times, *more]
+    return [words, f"{fit.correlation:.2f}", f"{-fit.shift:.1f}" if fit.shift else "", *times, *more]
 
 
 TIMES = ("dip", "upward", "downward", "along")
-HEADER = ["", "correlation", "dip (s)", "last upward (s)", "largest downward (s)", "largest horizontal (s)"]
+HEADER = [
+    "",
+    "correlation",
+    "start (s)",
+    "dip (s)",
+    "last upward (s)",
+    "largest downward (s)",
+    "largest horizontal (s)",
+]
 
 
 def jobs(place: Place) -> list[Job]:
@@ -158,19 +172,21 @@ def release_time() -> float:
 
 def sweep_task(place: Place) -> list[Task]:
     """Return the sweep from which the fitted case was chosen."""
+    if place.is_quick:
+        return []
     results, file = place.runs / SWEEP, CASE / f"{SWEEP}.toml"
     words = [sys.executable, "-m", "thawslide.sweeps.command", str(file), "--output", str(results), "--workers", "1"]
+    names = (file.name, "case.toml", "force-lower-0.2.toml", "force-lower-0.3.toml", "lamplugh_profile.csv")
+    inputs = tuple(CASE / name for name in names)
     environment = {"THAWSLIDE_BINARY": str(place.program)}
-    return (
-        [] if place.is_quick else [Task(SWEEP, tuple(words), results, place.version, (file,), 90.0, False, environment)]
-    )
+    return [Task(SWEEP, tuple(words), results, place.version, inputs, 90.0, False, environment)]
 
 
 def run_rows(place: Place) -> list[list[str]]:
     """Return the table of runs; a runout after which the slide still moves is a lower limit."""
     rows = [[*HEADER, "peak of the mean velocity (m/s)", "runout (km)", "largest vertical force (TN)"]]
     own = extreme_times((curves := record_curves(record())).time, curves.up, curves.along)
-    rows.append(cells_of("record", Fit(1.0, 0.0, own, 0.0), "", "", f"{1e-12 * np.max(np.abs(curves.up)):.2f}"))
+    rows.append(cells_of("record", Fit(1.0, -ONSET, own, 0.0), "", "", f"{1e-12 * np.max(np.abs(curves.up)):.2f}"))
     for job in JOBS:
         run = Run(place.runs / job.key)
         fit, speed = fit_of(compared(run, record())), run.series["mean_velocity_m_s"]
@@ -193,13 +209,15 @@ def sweep_row(place: Place) -> str:
     """Return the correlations of the members of the sweep in words."""
     if place.is_quick:
         return ""
-    folders = sorted(path.parent for path in (place.runs / SWEEP / "members").glob("*/history.csv"))
-    fits = [fit_of(compared(Run(folder, skip_damaged=True), record())) for folder in folders]
-    found = np.array([fit.correlation for fit in fits if np.isfinite(fit.correlation)])
+    forecast = read_forecast(place.runs / SWEEP)
+    fits = [fit_of(compared(Run(folder, skip_damaged=True), record())) for folder in forecast.run_folders]
+    found, start = np.array([(fit.correlation, -fit.shift) for fit in fits if np.isfinite(fit.correlation)]).T
     low, middle, high = np.quantile(found, (0.05, 0.5, 0.95))
+    is_near = start > ONSET - NEAR
     return (
         f"Of {len(found)} members that moved, 5 % have a correlation below {low:.2f}, half below {middle:.2f}, and 5 % "
-        f"above {high:.2f}."
+        f"above {high:.2f}. Of the {np.count_nonzero(is_near)} members that start at most {NEAR:g} s before the "
+        f"record, the highest is {np.max(found[is_near]):.2f}."
     )
 
 
