@@ -26,6 +26,9 @@ def new_case(
     cell: float | None = None,
     resolution: str | None = None,
     largest_volume: float | None = None,
+    glacier: str | PathLike[str] | None = None,
+    snow: str | PathLike[str] | None = None,
+    valley_floor: str | PathLike[str] | None = None,
     on_message: Callable[[str], None] = print_message,
 ) -> Case:
     """Create a case folder from a DEM and a release area, as `thawslide new`.
@@ -54,6 +57,8 @@ def new_case(
         "quick", "standard" or "fine".
     largest_volume : float, optional
         Confirms a release above the usual limit of `body.slide.largest_volume` [m3].
+    glacier, snow, valley_floor : str or path, optional
+        Polygons of this ground on the path, which become substrates with assumed friction coefficients.
     on_message : callable
         Receives the lines of the command.
 
@@ -82,6 +87,9 @@ def new_case(
         "--cell": cell,
         "--resolution": resolution,
         "--largest-volume": largest_volume,
+        "--glacier": glacier,
+        "--snow": snow,
+        "--valley-floor": valley_floor,
     }
     program = find_program()
     if program is None:

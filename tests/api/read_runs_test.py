@@ -88,13 +88,14 @@ def test_a_new_case_is_that_of_the_command_line(tmp_path: Path, command_line: Co
     files = {"dem": VALLEY / "valley.tif", "release": VALLEY / "release.geojson"}
     lines: list[str] = []
     case = thawslide.new_case(
-        **files, folder=tmp_path / "python", thickness=12.0, cell=20.0, cut=True, on_message=lines.append
-    )
-    done = command_line(
-        "new", f"--dem={files['dem']}", f"--release={files['release']}", "--thickness=12", "--cell=20", "--cut", "shell"
-    )
+        **files, folder=tmp_path / "python", thickness=12.0, cell=20.0, cut=True, glacier=files["release"],
+        on_message=lines.append,
+    )  # fmt: skip
+    words = ("--thickness=12", "--cell=20", "--cut", f"--glacier={files['release']}", "shell")
+    done = command_line("new", f"--dem={files['dem']}", f"--release={files['release']}", *words)
     assert done.returncode == 0, done.stderr
     assert case["grid.cell"] == 20.0 and case.name == "python"
+    assert case["substrate.glacier.friction_coefficient"] == 0.1
     made, other = ((tmp_path / name / "case.toml").read_text() for name in ("python", "shell"))
     assert made.replace('"python"', '"shell"') == other
     assert any("a release of" in line for line in lines)
