@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
 from reproduction.studies import joffre
 from reproduction.study import Place, Study
 from reproduction.tables import markdown
+from thawslide.figures.colours import PROBABILITY_LIMITS
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import (
     box_about,
@@ -27,6 +28,7 @@ from thawslide.figures.map_panel import (
 )
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, RED, styled
 from thawslide.maps import Map, read_map
+from thawslide.number_text import number_text
 
 HEADING = "## Forecast"
 NAMES = {
@@ -92,7 +94,7 @@ def probability_figure(
     mark = " Cross: observed reach." if reach else ""
     note = f"Reached: flow thickness above 0.5 m. White outlines: releases.{mark} {scene.note()}"
     page = MapPage("Probability of being reached", scene, len(maps), note=note, foot=0.1, bar=0.72)
-    painter, panels = ScalarMappable(Normalize(0.0, 1.0), colour_map("YlOrRd")), []
+    painter, panels = ScalarMappable(BoundaryNorm(PROBABILITY_LIMITS, 256), colour_map("YlOrRd")), []
     for number, (name, whole) in enumerate(maps.items()):
         field = whole.cropped(scene.box)
         axes = page.panel(number, labels=number == 0)
@@ -101,7 +103,9 @@ def probability_figure(
             outline(axes, thickness.cropped(scene.box), 0.5, colors="white", linewidths=1.0)
         if reach:
             axes.plot(*reach, "X", color=BLUE, markeredgecolor="white", ms=9, zorder=10)
-        page.figure.colorbar(painter, cax=page.panel_bar(axes)).set_label("probability", labelpad=2)
+        bar = page.figure.colorbar(painter, cax=page.panel_bar(axes))
+        bar.set_ticks(PROBABILITY_LIMITS, labels=[number_text(limit) for limit in PROBABILITY_LIMITS])
+        bar.set_label("probability", labelpad=2)
         panels.append((axes, NAMES[name], ""))
         if number == 0:
             scale_bar(axes, quiet_corner(field, scene.box))
