@@ -160,7 +160,7 @@ def jobs(place: Place) -> list[Job]:
     found = [
         Job(each.key, each.words, tuple(key.replace("LATER", later) for key in each.sets), each.case) for each in JOBS
     ]
-    quick = ("time.end=1", "grid.cell=20", "time.step=0.02") if place.is_quick else ()
+    quick = ("time.end=24", "grid.cell=20", "time.step=0.02") if place.is_quick else ()
     return [Job(each.key, each.words, (*each.sets, "time.output_interval=20", *quick), each.case) for each in found]
 
 

@@ -70,6 +70,17 @@ def test_columns(binary: Path, report_environment: dict[str, str], output: Path)
     assert page.read_text(encoding="utf-8") == text
 
 
+def test_lamplugh_force(binary: Path, report_environment: dict[str, str], output: Path) -> None:
+    assert "made: lamplugh-force" in pages(binary, output, report_environment, "lamplugh-force")
+    folder = output / "quick" / "written" / "cases" / "lamplugh-columns"
+    text = text_of(folder / "force.md")
+    assert "| record | 1.00 | -1.0 | 10.9 | 21.2 | 31.8 | 28.9 |" in text and "@" not in text
+    for words in ("two parts, fitted, cells of 20 m", "both parts at once", "chain, lower half of the release"):
+        correlation = float(text.split(f"| {words} | ")[1].split(" | ")[0])
+        assert abs(correlation) <= 1.0
+    assert (folder / "figures" / "force_two_parts.png").is_file()
+
+
 def test_assumptions(binary: Path, report_environment: dict[str, str], output: Path) -> None:
     keys = ("case", "no-viscosity", "thick", "s-c100", "lamplugh-block*")
     assert "min left: " in pages(binary, output, report_environment, *(f"assumptions:{key}" for key in keys))
