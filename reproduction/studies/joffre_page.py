@@ -93,7 +93,7 @@ def probability_figure(
     scene = make_scene(terrain, box_about(boxes))
     mark = " Cross: observed reach." if reach else ""
     note = f"Reached: flow thickness above 0.5 m. White outlines: releases.{mark} {scene.note()}"
-    page = MapPage("Probability of being reached", scene, len(maps), note=note, foot=0.1, bar=0.72)
+    page = MapPage("Probability of being reached", scene, len(maps), note=note, foot=0.65)
     painter, panels = ScalarMappable(BoundaryNorm(PROBABILITY_LIMITS, 256), colour_map("YlOrRd")), []
     for number, (name, whole) in enumerate(maps.items()):
         field = whole.cropped(scene.box)
@@ -103,13 +103,13 @@ def probability_figure(
             outline(axes, thickness.cropped(scene.box), 0.5, colors="white", linewidths=1.0)
         if reach:
             axes.plot(*reach, "X", color=BLUE, markeredgecolor="white", ms=9, zorder=10)
-        bar = page.figure.colorbar(painter, cax=page.panel_bar(axes))
-        bar.set_ticks(PROBABILITY_LIMITS, labels=[number_text(limit) for limit in PROBABILITY_LIMITS])
-        bar.set_label("probability", labelpad=2)
         panels.append((axes, NAMES[name], ""))
         if number == 0:
             scale_bar(axes, quiet_corner(field, scene.box))
     page.set_titles(panels)
+    bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal")
+    bar.set_ticks(PROBABILITY_LIMITS, labels=[number_text(limit) for limit in PROBABILITY_LIMITS])
+    bar.set_label("probability", labelpad=2)
     return page.figure
 
 
