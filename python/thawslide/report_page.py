@@ -167,7 +167,7 @@ def _page(run: Run, report: Report, say: Messages, shown: str, view: str) -> str
     if maps := _map_files(run, report.page.parent):
         numbers += [f'<h2 id="maps">Map files</h2>\n{maps}']
     links = [("interactive", "Interactive view")] if view else []
-    numbers.insert(0, _links([*links, *((name, _heading(name)) for name in of_results)]))
+    numbers.insert(0, _links([*links, *((_anchor(name), _heading(name)) for name in of_results)]))
     parts = [
         results(run, say, shown),
         stored_section(run.folder),
@@ -183,7 +183,7 @@ def _diagnosis(run: Run, report: Report, figures: dict[str, Path]) -> list[str]:
     """Return notes, balances, figures of base and budgets, missing figures, inputs, settings and facts of the run."""
     of_diagnosis = [name for name in _OF_DIAGNOSIS if name in figures]
     parts = [
-        _links([(name, _heading(name)) for name in of_diagnosis]),
+        _links([(_anchor(name), _heading(name)) for name in of_diagnosis]),
         *(f'<p class="note">{html.escape(_local(note))}</p>' for note in _notes(run, report) if note),
     ]
     if found := balances(run):
@@ -229,13 +229,18 @@ def _heading(name: str) -> str:
     return FIGURES[name].heading if name in FIGURES else name.capitalize()
 
 
+def _anchor(name: str) -> str:
+    """Return the id of a figure's heading, which differs from the ids of the interactive plots."""
+    return f"figure-{name}"
+
+
 def _figure(run: Run, name: str, path: Path) -> str:
     """Return a figure with its heading; a note if it was plotted before the last row of the history."""
     caption = FIGURES[name].caption_of(run)
     if path.stat().st_mtime < (run.folder / "history.csv").stat().st_mtime:
         caption += " Plotted before the last change of history.csv."
     part = figure_part(_heading(name), file_data(path), caption, path.suffix == ".mp4")
-    return f'<h2 id="{name}">{html.escape(_heading(name))}</h2>\n{part}'
+    return f'<h2 id="{_anchor(name)}">{html.escape(_heading(name))}</h2>\n{part}'
 
 
 def _times(run: Run) -> str:

@@ -244,7 +244,7 @@ def test_caption_has_the_difference_of_two_inversions(folder: Path) -> None:
     assert "Maximum force without a specified band, compared in 10 to 200 s (Them): 70 GN reported. " in words
     assert re.search(r"in 2 to 8 s \(Third\): 1 GN reported\. The run has [\d.]+ GN\.", words), "not in the record"
     page = page_of(folder, "force_record")
-    assert '<h2 id="force_record">' in page and "The two inversions differ by a factor of" in page
+    assert '<h2 id="figure-force_record">' in page and "The two inversions differ by a factor of" in page
 
 
 def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:

@@ -1,5 +1,6 @@
 """Figures of a 3D run on a DEM: values of the files, units, coordinates and terrain."""
 
+import re
 import struct
 from pathlib import Path
 
@@ -165,6 +166,10 @@ def test_report_has_figures_animation_and_maps(map_run: Path) -> None:
     assert '<video controls loop muted src="data:video/mp4;base64,' in page
     assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
     assert '<p>Folder: <a href="maps">maps</a></p>' in page and "Missing figures" not in page
+    names = re.findall(r'<\w+ id="([^"]+)"', page)
+    assert len(names) == len(set(names)), "a link leads to one place"
+    links = set(re.findall(r'href="#([^"]+)"', page))
+    assert {f"figure-{name}" for name in ON_MAP} <= links <= set(names)
 
 
 def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None:

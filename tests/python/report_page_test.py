@@ -70,8 +70,8 @@ def test_page_with_selected_figures_keeps_the_others(make_run: MakeRun) -> None:
     report = make_report(Run(folder), names=["force"], dpi=50)
     assert (list(report.figures), list(report.kept)) == (["force"], ["motion", "band"])
     page = report.page.read_text(encoding="utf-8")
-    headings = re.findall(r'<h2 id="(\w+)">', page)
-    assert [name for name in headings if name != "interactive"] == ["motion", "force", "band"], "order of the page"
+    headings = re.findall(r'<h2 id="figure-(\w+)">', page)
+    assert headings == ["motion", "force", "band"], "order of the page"
     assert "Plotted before the last change of history.csv." not in page
     earlier = (folder / "history.csv").stat().st_mtime - 10.0
     for name in ("force", "band"):

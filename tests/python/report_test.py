@@ -104,7 +104,7 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
     assert shown == [file_data(report.figures[name]) for name in (*of_results, *of_diagnosis)]
     places = [page.index(f'<details id="{name}" class="part">') for name in ("numbers", "diagnosis")]
     assert places == sorted(places)
-    assert [page.index(f'<h2 id="{name}">') > places[1] for name in IN_SECTION] == [
+    assert [page.index(f'<h2 id="figure-{name}">') > places[1] for name in IN_SECTION] == [
         name in OF_DIAGNOSIS for name in IN_SECTION
     ]
     assert '<th scope="row">Peak mean velocity</th><td>12 m/s</td><td>at 5 s</td>' in page

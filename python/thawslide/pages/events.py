@@ -77,7 +77,7 @@ def events_part(runs: Mapping[str, Mobility]) -> str:
         },
         "yaxis": axis | {"title": {"text": "H/L (–)"}, "rangemode": "tozero"},
         "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
-        "margin": {"l": 65, "r": 10, "t": 40, "b": 55},
+        "margin": {"l": 65, "r": 10, "t": 40, "b": 64},
         "hovermode": "closest",
         "plot_bgcolor": "#FFFFFF",
     }

@@ -122,6 +122,7 @@ table { border-collapse: collapse; font-size: .93rem; }
 th, td { text-align: left; padding: .32rem 1.4rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { font-weight: 500; }
 .facts th, .facts td { overflow-wrap: anywhere; }
+.facts th { min-width: 13rem; }
 .facts td { min-width: 8rem; }
 .runs td { color: inherit !important; font-variant-numeric: tabular-nums; }
 .numbers td:nth-child(2) { font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
@@ -150,14 +151,28 @@ figcaption { font-size: .88rem; margin-top: .3rem; }
   body { margin: 1rem auto; }
   .results { grid-template-columns: minmax(0, 1fr); }
   table { display: block; overflow-x: auto; }
-  .numbers td:nth-child(2) { white-space: normal; }
+  .facts th { min-width: 8rem; }
+  :is(.numbers, .facts:not(:has(th:nth-child(4)))) {
+    tbody { display: block; }
+    tr { display: flex; flex-wrap: wrap; gap: 0 1rem; padding: .32rem 0; border-bottom: 1px solid var(--line); }
+    th, td { padding: 0; border: 0; min-width: 0; }
+  }
+  .numbers td:nth-child(2) { margin-left: auto; }
+  .numbers td:nth-child(3) { flex: 1 0 100%; }
+  .members :is(th, td) { padding-right: .7rem; }
+  .members :is(th:nth-child(2), th + td) { display: none; }
+  .numbers td:nth-child(3):empty { display: none; }
 }
 @page { margin: 12mm; }
 @media print {
   nav, .controls, .part:not([open]) { display: none; }
   :root { font-size: 12.5px; }
   body { margin: 0; }
-  figure { break-inside: avoid; }
+  h1, h2, h3, summary { break-after: avoid; }
+  tr:first-child { break-after: avoid; }
+  figure, tr, .note, #view, #events { break-inside: avoid; }
+  img { max-height: 235mm; width: auto; }
+  h2:has(+ figure > video), figure:has(video) { display: none; }
 }
 </style>
 </head>

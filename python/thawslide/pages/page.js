@@ -23,8 +23,17 @@
   const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d"] };
   const font = { family: "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif", size: 13 };
 
+  // Paper is narrower than most windows: plots have its width while the page is printed.
+  const resize = (size) => document.querySelectorAll(".js-plotly-plot").forEach((plot) => Plotly.relayout(plot, size));
+  window.addEventListener("beforeprint", () => resize({ autosize: false, width: 680 }));
+  window.addEventListener("afterprint", () => resize({ autosize: true, width: null }));
+
   if (element("events-parts")) {
     const events = JSON.parse(element("events-parts").textContent);
+    // Names do not fit between the points of a narrow plot; a touch shows them.
+    if (window.matchMedia("(max-width: 700px)").matches) {
+      events.traces.forEach((trace) => (trace.mode = "markers"));
+    }
     await Plotly.newPlot("events", events.traces, { ...events.layout, font }, options);
   }
   if (!element("view-parts")) {
@@ -83,7 +92,8 @@
       return {
         images: [image],
         xaxis: { ...axis, range: [west, east], title: { text: "easting (km)" } },
-        yaxis: { ...axis, range: [south, north], scaleanchor: "x", title: { text: "northing (km)" } },
+        yaxis: { ...axis, range: [south, north], scaleanchor: "x", automargin: true,
+          title: { text: "northing (km)", standoff: 10 } },
         legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" },
       };
     },
@@ -121,7 +131,7 @@
       return {
         showlegend: false,
         xaxis: { ...axis, title: { text: view.axes[0] + " (m)" } },
-        yaxis: { ...axis, title: { text: view.axes[1] + " (m)" } },
+        yaxis: { ...axis, automargin: true, title: { text: view.axes[1] + " (m)", standoff: 10 } },
       };
     },
     hover() {
@@ -160,7 +170,7 @@
     exaggeration() {
       const { xaxis, yaxis } = element("view")._fullLayout;
       const scale = (axis) => axis._length / Math.abs(axis.range[1] - axis.range[0]);
-      element("view-exaggeration").textContent = (scale(yaxis) / scale(xaxis)).toPrecision(2);
+      element("view-exaggeration").textContent = Number((scale(yaxis) / scale(xaxis)).toPrecision(2));
     },
   };
 
@@ -185,7 +195,7 @@
       await kind.follow();
     }
   };
-  const common = { font, margin: { l: 75, r: 10, t: 40, b: 55 }, hovermode: "closest", plot_bgcolor: "#FFFFFF" };
+  const common = { font, margin: { l: 75, r: 10, t: 40, b: 64 }, hovermode: "closest", plot_bgcolor: "#FFFFFF" };
   await Plotly.newPlot("view", kind.traces(), { ...common, ...kind.layout() }, options);
   if (kind === section) {
     element("view-follow-label").hidden = false;
