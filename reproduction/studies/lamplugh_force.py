@@ -174,10 +174,10 @@ def sweep_task(place: Place) -> list[Task]:
     """Return the sweep from which the fitted case was chosen."""
     if place.is_quick:
         return []
-    results, file = place.runs / SWEEP, CASE / f"{SWEEP}.toml"
+    results, file = place.runs / SWEEP, Path(__file__).parent / "cases" / f"lamplugh-{SWEEP}.toml"
     words = [sys.executable, "-m", "thawslide.sweeps.command", str(file), "--output", str(results), "--workers", "1"]
-    names = (file.name, "case.toml", "force-lower-0.2.toml", "force-lower-0.3.toml", "lamplugh_profile.csv")
-    inputs = tuple(CASE / name for name in names)
+    names = ("case.toml", "force-lower-0.2.toml", "force-lower-0.3.toml", "lamplugh_profile.csv")
+    inputs = (file, *(CASE / name for name in names))
     environment = {"THAWSLIDE_BINARY": str(place.program)}
     return [Task(SWEEP, tuple(words), results, place.version, inputs, 90.0, False, environment)]
 
