@@ -75,9 +75,13 @@ def test_lamplugh_force(binary: Path, report_environment: dict[str, str], output
     folder = output / "quick" / "written" / "cases" / "lamplugh-columns"
     text = text_of(folder / "force.md")
     assert "| record | 1.00 | -1.0 | 10.9 | 21.2 | 31.8 | 28.9 |" in text and "@" not in text
-    for words in ("two parts, fitted, cells of 20 m", "both parts at once", "chain, lower half of the release"):
-        correlation = float(text.split(f"| {words} | ")[1].split(" | ")[0])
-        assert abs(correlation) <= 1.0
+    # 24 s do not contain the reversal of the fitted run, but null models have their whole motion.
+    for words, low, high in (
+        ("two parts, fitted, cells of 20 m", 0.3, 0.8),
+        ("points, lower half of the release", 0.8, 1.0),
+        ("chain, lower half of the release", 0.8, 1.0),
+    ):
+        assert low < float(text.split(f"| {words} | ")[1].split(" | ")[0]) < high, words
     assert (folder / "figures" / "force_two_parts.png").is_file()
 
 
