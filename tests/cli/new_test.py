@@ -197,7 +197,11 @@ def test_new_accepts_a_raster_of_the_thickness(ran: Ran, tmp_path: Path, slope: 
 
 def test_polygons_of_the_ground_become_substrates(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     note = "\npath:        [basal] everywhere. Polygons of other ground: --glacier, --snow, --valley-floor\n"
-    assert note in slope.ok(folder=tmp_path / "rock")
+    plain = slope.ok(folder=tmp_path / "rock")
+    # The proposed base is that of [basal], also if other ground is below the release.
+    below = slope.ok("--glacier", slope.release(), folder=tmp_path / "glacier")
+    bases = [re.findall(r"^base: .*\n.*", printed, re.MULTILINE) for printed in (plain, below)]
+    assert note in plain and bases[0] and bases[0] == bases[1]
     ground = write_rectangle(tmp_path / "ground.geojson", WEST + 400.0, SOUTH + 100.0)
     assert note not in slope.ok("--valley-floor", ground)
     key, coefficient = "substrate.valley_floor.friction_coefficient", 0.2
