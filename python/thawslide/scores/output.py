@@ -129,7 +129,9 @@ def _tables(score: Score, rows: list[dict[str, Any]]) -> list[Table]:
             lines.append(["members: median (5 to 95 %)", spread, "", "", ""])
         tables.append((["outline", "Jaccard index", "hit", "missed", "false"], lines))
     if (found := score.columns.get("force_correlation")) is not None:
-        tables.append((["force record", "correlation"], [["both components", _range_text(quantiles(found, weights))]]))
+        shift = _range_text(quantiles(score.columns["force_shift_s"], weights))
+        head = ["force record", "correlation", "time of the run at time 0 of the record (s)"]
+        tables.append((head, [["both components", _range_text(quantiles(found, weights)), shift]]))
     return tables
 
 
