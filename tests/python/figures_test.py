@@ -1,15 +1,18 @@
 """Contents of figures: data of the run, units and terrain; and figures of runs with little data."""
 
+import re
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, ground, history_columns, update_facts, write_history
+from conftest import MakeRun, edit, ground, history_columns, update_facts, write_history
+from map_runs import plotted
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from reproduction.bars import bars
@@ -25,6 +28,7 @@ from thawslide.figures.window import fit
 from thawslide.number_text import prefixed
 from thawslide.time_reference import time_of_speed
 
+SCALE = re.compile("true scale|vertical exaggeration|particles outside")
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
 
 
@@ -136,6 +140,24 @@ def test_strips_have_heights_and_exaggeration_and_the_overview_the_range_of_each
     shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
     assert tuple(shown) == pytest.approx(titled(figure, "(b)").get_xlim())
     assert tuple(np.asarray(bars.lines[3].get_xdata(), dtype=float)) == pytest.approx((68.5, 87.5))
+
+
+def test_notes_on_scale_and_particles_are_between_panels_and_titles(make_run: MakeRun, map_run: Path) -> None:
+    """Inside a panel, they would cover the sliding mass."""
+    folder = make_run()
+    edit(folder / "case.toml", "max = [200.0, ", "max = [60.0, ")  # panels end there
+    for path, names in ((folder, SNAPSHOT_FIGURES), (map_run, ("cross_sections",))):
+        for name in names:
+            figure = plotted(name, path)
+            figure.draw_without_rendering()
+            notes = [(axes, text) for axes in figure.axes for text in axes.texts if SCALE.search(text.get_text())]
+            assert len(notes) > 3
+            assert any("of 80 particles outside" in text.get_text() for _, text in notes) == (path == folder)
+            for axes, text in notes:
+                note, titles = text.get_window_extent(), {axes.get_title(loc="left"), axes.get_title(loc="right")}
+                assert note.y0 >= axes.get_window_extent().y1, (name, text)
+                shown = [each for each in axes.findobj(Text) if each.get_text() in titles - {""}]
+                assert all(each.get_window_extent().y0 >= note.y1 for each in shown), (name, text)
 
 
 def test_without_terrain_there_is_no_fill_and_no_strip(make_run: MakeRun) -> None:

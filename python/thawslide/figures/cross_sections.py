@@ -19,10 +19,12 @@ from thawslide.figures.style import (
     GROUND,
     GROUND_LINE,
     NOTE,
+    NOTE_LINE,
     ORANGE,
     RED,
     SKY,
     styled,
+    title_over_note,
     wrapped,
 )
 from thawslide.figures.window import Window, fill_terrain, fit
@@ -41,7 +43,7 @@ _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
 _TICK_MARGIN = 0.05  # of a panel across the path, without labels at either end
 _FIRST = (1.3, 4.2)  # inches, minimum and maximum height of the section along the path
-_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = COLUMN_WIDTH, 0.65, 0.12, 0.65, 2.15, 1.35, 0.15  # inches
+_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = COLUMN_WIDTH, 0.65, 0.12, 0.65, 2.15 + NOTE_LINE, 1.35, 0.15  # inches
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
 _TITLE_CHARACTERS, _TITLE_LINE = 12.5, 0.17  # characters in one inch; inches
 
@@ -152,7 +154,7 @@ def cross_sections(run: Run) -> Figure:
     note = wrapped(about, _NOTE_CHARACTERS * full)
     title = wrapped(run.titled("cross sections"), _TITLE_CHARACTERS * full)
     extra = _TITLE_LINE * (len(title) - 1)
-    top = 0.7 + extra + _LINE * len(note)
+    top = 0.7 + NOTE_LINE + extra + _LINE * len(note)
     head = top + first + 0.35
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3
@@ -263,8 +265,7 @@ def _plot_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:
     axes.plot(x, np.where(maximum > 0.0, ground + times * maximum, np.nan), color=_MAXIMUM, linewidth=1.0, zorder=5)
     window.apply(axes)
     notes = [window.note(), f"thickness exaggeration {times:g}×"] if times > 1.0 else [window.note()]
-    axes.text(0.99, 0.97, "\n".join(notes), transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE)
-    axes.set_title(title, loc="left")
+    title_over_note(axes, title, ", ".join(notes))
 
 
 def _mark_places(axes: Axes, profile: Section, places: list[float]) -> None:

@@ -18,6 +18,7 @@ from thawslide.figures.style import (
     COLUMN_WIDTH,
     NOTE,
     TIME_LABEL,
+    note_below,
     styled,
     time_axis,
     title_figure,
@@ -235,7 +236,7 @@ def force_record(run: Run) -> Figure:
         time_axis(axes, found.record.time)
         axes.set_ylabel(f"force ({unit})")
     panels[-1].set_xlabel(TIME_LABEL)
-    _mark_reversals(panels[0], found, divisor)
+    note_below(figure, _mark_reversals(panels[0], found, divisor))
     panels[0].legend(loc="upper right")
     title_panels(
         panels,
@@ -247,13 +248,14 @@ def force_record(run: Run) -> Figure:
     return figure
 
 
-def _mark_reversals(axes: Axes, found: Comparison, divisor: float) -> None:
-    """Mark the maximum upward and downward force of both curves, and write the time between them."""
-    for number, (name, curves, colour) in enumerate((("inversion", found.record, BLACK), ("run", found.run, BLUE))):
+def _mark_reversals(axes: Axes, found: Comparison, divisor: float) -> str:
+    """Mark the maximum upward and downward force of both curves; return a sentence on the time between them."""
+    durations = []
+    for name, curves, colour in (("inversion", found.record, BLACK), ("run", found.run, BLUE)):
         if curves.reversal is None:
             continue
         when = np.array([curves.reversal.upward, curves.reversal.downward])
         axes.plot(when, np.interp(when, curves.time, curves.up) / divisor, "o", color=colour, markersize=5,
                   markerfacecolor="white", label="_marks")  # fmt: skip
-        words = f"{name}: {curves.reversal.duration:.1f} s from maximum upward to maximum downward force"
-        axes.text(0.99, 0.12 - 0.09 * number, words, transform=axes.transAxes, ha="right", size=8, color=colour)
+        durations.append(f"{name} {curves.reversal.duration:.1f} s")
+    return f"From maximum upward to maximum downward force: {', '.join(durations)}." if durations else ""

@@ -23,13 +23,15 @@ from thawslide.figures.colours import (
     scale_words,
 )
 from thawslide.figures.load import overburden
-from thawslide.figures.map_panel import HALO
 from thawslide.figures.moments import LETTERS, chosen_snapshots, shown_time, window_words
 from thawslide.figures.style import (
     COLUMN_WIDTH,
     GROUND_LINE,
     NOTE,
+    NOTE_LINE,
+    note_above,
     styled,
+    title_over_note,
     vertical_exaggeration,
     warn,
     wrapped,
@@ -53,7 +55,7 @@ _OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pre
 
 # Layout of the page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = COLUMN_WIDTH, 0.65, 0.12, 0.7
-_PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.75, 0.13
+_PANEL_HEIGHT, _STRIP_HEIGHT, _STRIP_GAP, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.08 + NOTE_LINE, 0.75 + NOTE_LINE, 0.13
 _MOST_TIMES = 3  # of speed and plastic strain, in one column of panels
 _SAME_SCALE = 0.1  # relative difference of scales below which a strip repeats its panel
 _OVERVIEW_MARGINS = (1.0, 1.15)
@@ -109,12 +111,12 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = (), most: i
     _draw_zones(_plot_overview(page, run, shots, windows), zones)
     for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
         panel, strip = page.panel(number)
-        _plot_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
-        panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
+        note = _plot_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
+        largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
+        title = f"({LETTERS[number]}) {time_text(run, shot)}"
+        title_over_note(panel, title, note, largest.strip().replace("-", "−"))
         _draw_zones(panel, zones)
         warn(panel, _warning(run, shot, painting), high=False)
-        largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
-        panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
             _plot_strip(strip, run, shot, value, window, painter, page.panel_width, page.highest)
             panel.set_xlabel("")
@@ -157,7 +159,7 @@ class _Page:
         self.title = wrapped(title, _TITLE_CHARACTERS * self.full)
         self.top = 0.6 + _TITLE_LINE * (len(self.title) - 1)
         self.head = self.top + self.overview_height + self.bars_height + 0.95
-        self.row = _PANEL_HEIGHT + _ROW_GAP + (_STRIP_HEIGHT + 0.08 if self.strips else 0.0)
+        self.row = _PANEL_HEIGHT + _ROW_GAP + (_STRIP_HEIGHT + _STRIP_GAP if self.strips else 0.0)
         self.foot = self.head + self.row * -(-len(shots) // columns)
         self.height = self.foot + 0.55
         self.figure = Figure(figsize=(_WIDTH, self.height))
@@ -183,7 +185,7 @@ class _Page:
         panel = self.place(left, top, self.panel_width, _PANEL_HEIGHT)
         strip = None
         if self.strips:
-            strip = self.place(left, top + _PANEL_HEIGHT + 0.08, self.panel_width, _STRIP_HEIGHT)
+            strip = self.place(left, top + _PANEL_HEIGHT + _STRIP_GAP, self.panel_width, _STRIP_HEIGHT)
         return panel, strip
 
     def colourbar(self) -> Axes:
@@ -249,14 +251,14 @@ def _plot_particles(
     painter: ScalarMappable,
     width: float,
     height: float,
-) -> None:
+) -> str:
+    """Plot particles on the terrain; return the scale of the panel, and the number of particles outside."""
     x, z = shot.points[:, 0], shot.points[:, run.vertical]
     fill_terrain(axes, run.terrain, window.bottom)
     axes.add_collection(_painted(run, shot, z, values, window, painter, (width, height)), autolim=False)
     _apply(axes, run, window)
     outside = int(np.sum((x < window.left) | (x > window.right) | (z < window.bottom) | (z > window.top)))
-    words = window.note() + (f"\n{outside:,} of {len(x):,} particles outside" if outside else "")
-    axes.text(0.99, 0.97, words, transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE, path_effects=HALO)
+    return window.note() + (f", {outside:,} of {len(x):,} particles outside" if outside else "")
 
 
 def _strip_window(run: Run, shot: Snapshot, window: Window, highest: float) -> Window:
@@ -291,17 +293,7 @@ def _plot_strip(
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     flat.apply(axes)
     axes.set_ylabel("height above\nterrain (m)", size=7)
-    axes.text(
-        0.99,
-        0.95,
-        f"vertical exaggeration {vertical_exaggeration(axes):.2g}×",
-        transform=axes.transAxes,
-        ha="right",
-        va="top",
-        size=7,
-        color=NOTE,
-        path_effects=HALO,
-    )
+    note_above(axes, f"vertical exaggeration {vertical_exaggeration(axes):.2g}×")
 
 
 def _draw_zones(axes: Axes, zones: Sequence[Zone]) -> None:

@@ -201,6 +201,8 @@ def vertical_exaggeration(axes: Axes, unit: float = 1.0) -> float:
 
 _LABEL_SPAN = 0.35  # of a panel, for the label of a level
 _WARNING_LINE, _WARNING_EDGE = 0.14, 0.14  # inches: a line of a warning, and the space around all of them
+NOTE_LINE = 0.13  # inches: a note above a panel
+_OVER_NOTE = 72.0 * NOTE_LINE + 4.0  # points from a panel to the title over its note
 _MOST_RESERVED = 0.7  # of the height of a panel
 
 
@@ -232,6 +234,19 @@ def warn(axes: Axes, words: str, high: bool = True, below: float = 0.0) -> None:
             va="top" if high else "bottom", color="#B00020", zorder=12, gid="warning",
             bbox={"facecolor": "white", "edgecolor": "#B00020", "alpha": 0.92, "linewidth": 0.8, "pad": 2.5},
         )  # fmt: skip
+
+
+def note_above(axes: Axes, words: str) -> None:
+    """Write a note above the right end of a panel, outside its data."""
+    axes.annotate(words, (1.0, 1.0), xycoords="axes fraction", xytext=(0.0, 2.0), textcoords="offset points",
+                  ha="right", va="bottom", size=7, color=NOTE)  # fmt: skip
+
+
+def title_over_note(axes: Axes, title: str, note: str, remark: str = "") -> None:
+    """Give a panel a note above its right end, and above the note a title and a remark at its right."""
+    note_above(axes, note)
+    axes.set_title(title, loc="left", pad=_OVER_NOTE)
+    axes.set_title(remark, loc="right", color=NOTE, size=8, pad=_OVER_NOTE)
 
 
 def title_panels(axes: Sequence[Axes], titles: Sequence[str]) -> None:
