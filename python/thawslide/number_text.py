@@ -9,6 +9,7 @@ _SMALLEST, _LARGEST = 0.001, 1e7  # of numbers without a power of ten
 _PREFIXES = ((1e15, "P"), (1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"))
 _PREFIXED_UNITS = ("Pa", "N", "J", "N/m of width")
 _LEAST_PREFIXED = 1e4
+_POWERS = str.maketrans("23", "²³")
 
 
 def number_text(value: float, digits: int = 3) -> str:
@@ -63,7 +64,12 @@ def quantity_text(value: float, unit: str = "", digits: int = 3) -> str:
     if unit in _PREFIXED_UNITS and abs(value) >= _LEAST_PREFIXED:
         divisor, unit = prefixed(value, unit)
         value /= divisor
-    return f"{number_text(value, digits)} {unit.replace('m3', 'm³').replace('m2', 'm²')}".strip()
+    return f"{number_text(value, digits)} {unit_text(unit)}".strip()
+
+
+def unit_text(unit: str) -> str:
+    """Return a unit of a file or key as pages and figures show it, e.g. °C for C and m³/s² for m3/s2."""
+    return "°C" if unit in ("C", "degC") else unit.translate(_POWERS)
 
 
 def volume_text(value: float, digits: int = 3) -> str:

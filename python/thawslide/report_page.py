@@ -19,7 +19,7 @@ from thawslide.key_numbers import boiling_note, found_for, key_numbers
 from thawslide.maps import Maps, on_map
 from thawslide.messages import LANGUAGES, Messages
 from thawslide.mobility import mobility_of
-from thawslide.number_text import exact_text, quantity_text
+from thawslide.number_text import exact_text, quantity_text, unit_text
 from thawslide.pages.events import events_part
 from thawslide.pages.facts import facts_of, inputs_of, settings_of
 from thawslide.pages.map_view import map_view
@@ -284,6 +284,7 @@ def _about(maps: Maps, name: str) -> tuple[str, str]:
         return maps.about(name)
     except ReportError:
         return "damaged", ""
+    return description, unit_text(unit)
 
 
 _REPORTED_DIGITS = 6  # more than of computed values: reported values remain as published

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from conftest import MakeRun, edit, history_columns, page_of, update_facts, write_history
+from map_runs import centres, write_map
 
 from thawslide import Run
 from thawslide.balance import balance_note, balances
@@ -249,3 +250,15 @@ def test_published_events_are_plausible_and_named() -> None:
         assert 0.05 < event.ratio < 0.7, event
         assert 1e4 < event.volume < 1e9, event
         assert re.search(r"\(\d{4}\)$", event.source), event
+
+
+def test_units_of_maps_and_settings_are_written_as_in_figures(map_run: Path) -> None:
+    x, _ = centres()
+    write_map(map_run / "maps" / "max_basal_temperature.tif", np.zeros(x.shape), "C", "maximum temperature")
+    with (map_run / "case.toml").open("a") as file:
+        file.write("\n[body.slab]\ntemperature = -10.0  # C\ndensity = 900.0  # kg/m3\n")
+    page = page_of(map_run)
+    assert '<th scope="row">max_basal_temperature.tif</th><td>maximum temperature</td><td>°C</td>' in page
+    assert re.search(r"max_momentum_flux.tif</th><td>[^<]*</td><td>m³/s²</td>", page)
+    assert '<th scope="row">body.slab.temperature</th><td>-10.0</td><td>°C</td>' in page
+    assert '<th scope="row">body.slab.density</th><td>900.0</td><td>kg/m³</td>' in page

@@ -12,6 +12,7 @@ from thawslide.balance import balances
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.key_numbers import found_for, key_numbers, quantity_text, stop_time
+from thawslide.number_text import unit_text
 from thawslide.pages.markup import file_data
 from thawslide.report_page import make_report
 from thawslide.time_reference import time_note
@@ -83,6 +84,8 @@ def test_quantities_have_prefixes_and_three_digits() -> None:
     assert quantity_text(12345.0, "m") == "12,300 m"
     assert quantity_text(5.2e7, "m3") == "52 million m³"
     assert quantity_text(5612.5, "m", 6) == "5,612.5 m"
+    assert quantity_text(-10.0, "C") == "−10 °C"
+    assert [unit_text(unit) for unit in ("m3/s2", "degC", "kg/m3", "1/Pa", "")] == ["m³/s²", "°C", "kg/m³", "1/Pa", ""]
 
 
 def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:

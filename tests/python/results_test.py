@@ -156,7 +156,7 @@ def test_settings_are_the_keys_that_the_case_gives(make_run: MakeRun) -> None:
     assert rows == [
         ("case.title", "&quot;x&quot;", ""),
         ("terrain.file", "&quot;dem # 1.tif&quot;", ""),
-        ("body.slide.temperature", "-5.0", "C"),
+        ("body.slide.temperature", "-5.0", "°C"),
     ]
 
 

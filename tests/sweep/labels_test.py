@@ -15,7 +15,7 @@ def test_keys_results_and_histories_have_declared_names_and_units(with_program: 
     assert label_of_key("basal.friction") == "basal.friction" and label_of_key("case") == "case"
     assert label_of_result("peak_speed_m_s") == "peak speed (m/s)" and label_of_result("h_over_l") == "H/L"
     assert label_of_result("probe_bend_mean_speed_m_s") == "probe bend mean speed (m/s)"
-    assert label_of_result("probe_gate_passed_volume_m3") == "probe gate passed volume (m3)"
+    assert label_of_result("probe_gate_passed_volume_m3") == "probe gate passed volume (m³)"
     assert label_of_result("own") == "own"
     assert {"time_s", "runout_m", "basal_force_y_N"} <= {*declared_columns(is_block=False)}
     assert "velocity_m_s" in declared_columns(True) and "velocity_m_s" not in declared_columns(False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from thawslide.number_text import integer_text
+from thawslide.number_text import integer_text, unit_text
 from thawslide.pages.markup import details, table
 from thawslide.run_folder import Run
 from thawslide.text_files import MEGABYTE, read_text
@@ -39,7 +39,7 @@ def settings_of(run: Run) -> str:
         elif entry := re.fullmatch(r"([\w-]+) = (.*?)(?:  # ([^\"]*))?", line):
             key, value, remark = entry.groups()
             if "not given" not in (remark or ""):
-                rows.append((f"{section}.{key}", _without_folders(value), remark or ""))
+                rows.append((f"{section}.{key}", _without_folders(value), unit_text(remark or "")))
     return table(rows, "facts", ("key", "value", "unit")) if rows else ""
 
 

@@ -21,8 +21,8 @@ PAGE, JSON = "pair.md", "pair.json"
 _WORDS = {
     "travel_distance_m": ("travel distance", "m"),
     "displacement_m": ("mean displacement", "m"),
-    "deposit_area_m2": ("deposit area", "m2"),
-    "inundated_area_m2": ("inundated area", "m2"),
+    "deposit_area_m2": ("deposit area", "m²"),
+    "inundated_area_m2": ("inundated area", "m²"),
 }
 _OUTLINES = {"deposit": "final_thickness", "inundated area": "max_thickness"}
 Outlines = dict[str, OutlineDistance | None]

@@ -14,7 +14,7 @@ import pandas as pd
 
 from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError
-from thawslide.number_text import area_text, number_text
+from thawslide.number_text import area_text, number_text, unit_text
 from thawslide.pages.markup import table
 from thawslide.scores.ensemble import Distribution, quantiles
 from thawslide.scores.maps import jaccard
@@ -136,7 +136,7 @@ def _tables(score: Score, rows: list[dict[str, Any]]) -> list[Table]:
 
 
 def _cells(row: dict[str, Any], is_sweep: bool) -> list[str]:
-    unit = "" if row["unit"] in ("", "-", "1") else f" {row['unit']}"
+    unit = "" if row["unit"] in ("", "-", "1") else f" {unit_text(row['unit'])}"
     uncertainty = f" ± {number_text(row['uncertainty'])}" if row["uncertainty"] else ""
     cells = [row["words"], f"{number_text(row['observed'])}{uncertainty}{unit}"]
     if is_sweep:

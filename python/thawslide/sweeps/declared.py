@@ -10,6 +10,7 @@ from functools import cache
 from typing import Any
 
 from thawslide import _core
+from thawslide.number_text import unit_text
 from thawslide.program import find_program
 
 _HISTORY, _BLOCK = "history.csv", "Table of the rigid block"  # sections of the output
@@ -28,7 +29,7 @@ def declared_columns(is_block: bool) -> list[str]:
 def unit_of_key(key: str) -> str:
     """Return the unit of a key such as body.slide.temperature; "" without unit."""
     unit = _UNIT.search(_schema_of(key).get("description", ""))
-    return "" if unit is None else "°C" if unit[1] == "C" else unit[1]
+    return "" if unit is None else unit_text(unit[1])
 
 
 def limits_of_key(key: str) -> tuple[float, float]:

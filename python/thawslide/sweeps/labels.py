@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from thawslide.number_text import unit_text
 from thawslide.sweeps.declared import unit_of_key
 
 # Columns of the table of members that no history has: name and unit.
 NUMBERS = {
     "simulated_time_s": ("simulated time", "s"),
-    "release_volume_m3": ("release volume", "m3"),
+    "release_volume_m3": ("release volume", "m³"),
     "drop_height_m": ("drop height H", "m"),
     "travel_distance_m": ("travel distance L", "m"),
     "h_over_l": ("H/L", ""),
@@ -24,16 +25,16 @@ NUMBERS = {
     "displacement_m": ("displacement", "m"),
     "runout_m": ("runout distance", "m"),
     "left_path_at_s": ("time of leaving the path", "s"),
-    "entrained_volume_m3": ("entrained volume", "m3"),
+    "entrained_volume_m3": ("entrained volume", "m³"),
     "left_mass_kg": ("mass that left", "kg"),
     "dilation_fraction": ("relative volume change", ""),
     "stop_time_s": ("stop time", "s"),
     "max_seismic_force_N": ("maximum seismic force", "N"),
-    "affected_area_m2": ("affected area", "m2"),
-    "covered_area_m2": ("covered area", "m2"),
-    "deposit_area_m2": ("deposit area", "m2"),
-    "inundated_area_m2": ("inundated area", "m2"),
-    "covered_volume_m3": ("covered volume", "m3"),
+    "affected_area_m2": ("affected area", "m²"),
+    "covered_area_m2": ("covered area", "m²"),
+    "deposit_area_m2": ("deposit area", "m²"),
+    "inundated_area_m2": ("inundated area", "m²"),
+    "covered_volume_m3": ("covered volume", "m³"),
 }
 _UNITS_OF_PROBES = {"_thickness_m": "m", "_speed_m_s": "m/s", "_passed_volume_m3": "m3"}
 
@@ -45,7 +46,7 @@ def name_and_unit(column: str) -> tuple[str, str]:
     if column.startswith("probe_"):
         for end, unit in _UNITS_OF_PROBES.items():
             if column.endswith(end):
-                return f"{column.removesuffix(end).replace('_', ' ')}{_name_of(end, unit)}", unit
+                return f"{column.removesuffix(end).replace('_', ' ')}{_name_of(end, unit)}", unit_text(unit)
     return column, ""
 
 
