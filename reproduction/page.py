@@ -15,7 +15,7 @@ from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures.motion import motion
 from thawslide.figures.snapshots import pore_pressure, temperature
 from thawslide.figures.style import without_title
-from thawslide.pages.markup import page_frame
+from thawslide.pages import markup
 from thawslide.run_folder import Run
 
 Runs = dict[str, Run]
@@ -90,7 +90,7 @@ def _page(runs: Runs, measures: dict[str, float], output: Path, quick: bool) -> 
         parts += _figure(row, measures, output)
     parts += _sentences(measures)
     parts += _runs(runs)
-    return page_frame("The paper and Thawslide", "\n".join(parts))
+    return markup.page_frame("The paper and Thawslide", "\n".join(parts))
 
 
 def _figure(row: dict[str, str], measures: dict[str, float], output: Path) -> list[str]:
@@ -107,19 +107,13 @@ def _sentences(measures: dict[str, float]) -> list[str]:
     found = sentences(measures)
     count = Counter(sentence.verdict for sentence in found)
     tally = ", ".join(f"{count[key]} {words}" for key, words in VERDICTS.items())
-    lines = [
-        "<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in (
-            row.section, row.text, row.reported, row.result)) + f"<td><b>{VERDICTS[row.verdict]}</b></td></tr>"
-        for row in found
-    ]  # fmt: skip
+    rows = ((row.section, row.text, row.reported, row.result, VERDICTS[row.verdict]) for row in found)
     return [
         '<h2 id="sentences">Sentences with a number or an ordering</h2>',
         f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed from "
         "the runs or from a closed form. The words of the paper have the same numerical meaning in all sentences:</p>",
         "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in MEANINGS) + "</ul>",
-        "<table><tr><th>Section</th><th>Sentence</th><th>Claim</th><th>Thawslide</th><th>Verdict</th></tr>",
-        *lines,
-        "</table>",
+        markup.table(rows, "wide", ("Section", "Sentence", "Claim", "Thawslide", "Verdict")),
     ]
 
 

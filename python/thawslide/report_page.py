@@ -264,7 +264,7 @@ def _target_tables(run: Run) -> list[str]:
         ]
         if rows:
             head = ("quantity", "time", "reported", "this run", "source")
-            tables.append((f"<h3>{heading}</h3>\n" if kind else "") + table(rows, "facts", head))
+            tables.append((f"<h3>{heading}</h3>\n" if kind else "") + table(rows, "facts wide", head))
     return tables
 
 
@@ -281,7 +281,7 @@ def _map_files(run: Run, page_folder: Path) -> str:
 def _about(maps: Maps, name: str) -> tuple[str, str]:
     """Return description and unit of a map, or that it is damaged."""
     try:
-        return maps.about(name)
+        description, unit = maps.about(name)
     except ReportError:
         return "damaged", ""
     return description, unit_text(unit)

@@ -44,7 +44,7 @@ def test_paper_and_pictures(binary: Path, report_environment: dict[str, str], ou
     assert len(figures) == 20
     assert all(figure.read_bytes().startswith(b"\x89PNG") for figure in figures)
     assert "Shortened runs" in page
-    assert len(re.findall(r"<td><b>(?:true|false|undetermined)</b></td>", page)) > 50
+    assert len(re.findall(r"<td[^>]*>(?:true|false|undetermined)</td>", page)) > 50
     rows = dict(line.split(",") for line in (quick / "paper" / "measures.csv").read_text().splitlines()[1:])
     # After 864 s the fronts are in the first cell; without latent heat, cooling has passed through several cells.
     assert float(rows["freezing_m050_no_latent_rms_error"]) < 0.01

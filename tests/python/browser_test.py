@@ -12,6 +12,7 @@ import pytest
 from conftest import MakeRun
 
 from thawslide import Run
+from thawslide.pages.markup import page_frame, table
 from thawslide.report_page import make_report
 
 CHROMIUM = next(
@@ -54,6 +55,29 @@ PROBE = """
 </script>
 """
 
+MEASURE = """
+<script>
+addEventListener("load", async () => {
+  const page = document.getElementById("page").contentDocument, root = page.documentElement;
+  while (page.getElementById("plotly") && page.body.dataset.plots !== "ready") {
+    await new Promise((done) => setTimeout(done, 50));
+  }
+  for (const part of page.querySelectorAll("details")) part.open = true;
+  const wide = [root, ...page.querySelectorAll("body, table, tr, th, td")].filter((each) =>
+    each.getClientRects().length && each.scrollWidth > each.clientWidth + 1);
+  const cells = [...page.querySelectorAll("tr:last-child td")].filter((each) => each.getClientRects().length);
+  const names = cells.map((each) => page.defaultView.getComputedStyle(each, "::before").content);
+  document.body.dataset.found = JSON.stringify({
+    width: root.clientWidth,
+    wide: wide.map((each) => each.outerHTML.slice(0, 200)),
+    names: names.filter((each) => each !== "none").slice(-5),
+    plots: page.querySelectorAll(".js-plotly-plot").length,
+    buttons: page.querySelectorAll(".modebar-btn").length,
+  });
+});
+</script>
+"""
+
 
 def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
     page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
@@ -73,6 +97,42 @@ def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
     assert found["errors"] == []
     assert found["widths"] and min(found["widths"]) > 1000, "plots of a part that opens have the width of the page"
     assert all(name.startswith(("data:", "blob:")) for name in found["resources"]), "the page loads nothing"
+    return found
+
+
+@pytest.mark.parametrize("style", ["runs wide members", "runs wide", "facts wide", "facts", "numbers", "wide"])
+def test_tables_fit_a_narrow_screen(tmp_path: Path, style: str) -> None:
+    """Each row of a wide table is then a list, in which the values have the names of their columns."""
+    head = ("result", "column", "unit", "mean", "SD", "P10", "P50", "P90") if "wide" in style else ("key", "value")
+    row = ("maximum seismic force", "material.rock_ice.hydraulic_conductivity", "N", *["9,700,000"] * 5)
+    page = page_frame("A page", table([row[: len(head)]] * 3, style, head))
+    found = measured_narrow(page, tmp_path)
+    assert found["width"] == 390 and found["wide"] == []
+    assert found["names"] == ([f'"{name} "' for name in head[-5:]] if "wide" in style else [])
+
+
+def test_report_fits_a_narrow_screen(map_run: Path, tmp_path: Path) -> None:
+    page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    found = measured_narrow(page, tmp_path)
+    assert found["width"] == 390 and found["wide"] == []
+    assert found["plots"] == 2 and found["buttons"] == 0, "buttons would cover the legends"
+
+
+def measured_narrow(page: str, tmp_path: Path) -> dict[str, Any]:
+    """Return the width of a page on a screen of 390 px, what scrolls, names of columns, and the number of plots."""
+    frame = f'<iframe id="page" style="width: 390px; border: 0" srcdoc="{html.escape(page)}"></iframe>'
+    path = tmp_path / "narrow.html"
+    path.write_text(frame + MEASURE, encoding="utf-8")
+    outcome = subprocess.run(
+        [
+            CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}",
+            "--hide-scrollbars", "--virtual-time-budget=60000", "--dump-dom", path.as_uri(),
+        ],
+        capture_output=True, text=True, timeout=600, check=True,
+    )  # fmt: skip
+    recorded = re.search(r'data-found="([^"]*)"', outcome.stdout)
+    assert recorded, outcome.stderr[-2000:]
+    found: dict[str, Any] = json.loads(html.unescape(recorded[1]))
     return found
 
 

@@ -68,7 +68,7 @@ def test_command_writes_to_first_run(two_runs: list[Run], capsys: pytest.Capture
     visible = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
     assert not re.search(r"https?://", visible)
     assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)"', visible))
-    assert '<tr><th scope="row">grid.cell</th><td>2.0</td><td>4.0</td></tr>' in page
+    assert re.search(r'<tr><th scope="row">grid.cell</th><td data-column="[^"]+">2.0</td><td [^>]*>4.0</td></tr>', page)
 
 
 def test_runs_of_the_same_name_have_their_paths(make_run: MakeRun) -> None:

@@ -48,7 +48,7 @@ def prior_section(folder: Path) -> str:
         return ""
     try:
         found = read_json(path, 64 * MEGABYTE)
-        parts = ["<h2>Prior check</h2>", table(_cells(found), "runs", _HEAD)]
+        parts = ["<h2>Prior check</h2>", table(_cells(found), "runs wide", _HEAD)]
         notes = [*found["notes"], _WEIGHTED if found["weights"] else _EQUAL]
         parts += [f"<p><small>{html.escape(note)}.</small></p>" for note in notes]
     except (ReportError, KeyError, TypeError, ValueError):

@@ -39,7 +39,7 @@ def make_comparison(
         f"<h1>Comparison of {len(runs)} runs</h1>",
         *(f'<p class="note">{html.escape(note)}</p>' for note in _notes(named)),
         "<h2>Key numbers</h2>",
-        table(number_rows(named), "runs", ("", *named)),
+        table(number_rows(named), "runs wide", ("", *named)),
     ]
     parts += _figure("Histories", _HISTORIES, run_histories, named, dpi, progress)
     if any(on_map(run) for run in runs):
@@ -47,7 +47,7 @@ def make_comparison(
     if events := events_part({name: mobility_of(run) for name, run in named.items()}):
         parts += ["<h2>Published events</h2>", events, scripts()]
     differences = case_rows(named)
-    shown = table(differences, "runs", ("key or file", *named)) if differences else "<p>None.</p>"
+    shown = table(differences, "runs wide", ("key or file", *named)) if differences else "<p>None.</p>"
     parts += ["<h2>Differences between the cases</h2>", details(f"{len(differences)} keys and files", shown)]
     path = folder / NAME
     try:

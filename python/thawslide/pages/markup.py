@@ -8,6 +8,7 @@ import json
 import re
 from collections.abc import Iterable, Sequence
 from io import BytesIO
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -35,12 +36,18 @@ def page_frame(title: str, body: str, is_self_contained: bool = False, language:
 
 
 def table(rows: Iterable[Sequence[object]], style: str, head: Sequence[str] = ()) -> str:
-    """Return a table; the first cell of each row is its heading."""
+    """Return a table; the first cell of each row is its heading.
+
+    Cells of the style "wide" have the name of their column: on a narrow screen, each row is a list of names and values.
+    """
     lines = []
     if head:
         lines.append("<tr>" + "".join(f'<th scope="col">{html.escape(cell)}</th>' for cell in head) + "</tr>")
+    names = [f' data-column="{html.escape(name)}"' for name in head[1:]] if "wide" in style else []
     for first, *rest in rows:
-        cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in rest)
+        cells = "".join(
+            f"<td{name}>{html.escape(str(cell))}</td>" for cell, name in zip_longest(rest, names, fillvalue="")
+        )
         lines.append(f'<tr><th scope="row">{html.escape(str(first))}</th>{cells}</tr>')
     return f'<table class="{style}">\n' + "\n".join(lines) + "\n</table>"
 
@@ -150,17 +157,27 @@ figcaption { font-size: .88rem; margin-top: .3rem; }
 @media screen and (max-width: 700px) {
   body { margin: 1rem auto; }
   .results { grid-template-columns: minmax(0, 1fr); }
-  table { display: block; overflow-x: auto; }
-  .facts th { min-width: 8rem; }
-  :is(.numbers, .facts:not(:has(th:nth-child(4)))) {
+  table { overflow-wrap: anywhere; }
+  th, td { padding-right: .7rem; }
+  :is(.numbers, .facts, .wide) {
+    display: block;
     tbody { display: block; }
     tr { display: flex; flex-wrap: wrap; gap: 0 1rem; padding: .32rem 0; border-bottom: 1px solid var(--line); }
     th, td { padding: 0; border: 0; min-width: 0; }
   }
   .numbers td:nth-child(2) { margin-left: auto; }
   .numbers td:nth-child(3) { flex: 1 0 100%; }
-  .members :is(th, td) { padding-right: .7rem; }
-  .members :is(th:nth-child(2), th + td) { display: none; }
+  .wide {
+    tr:has([scope=col]), &:not(.members) td:empty { display: none; }
+    th { flex: 1 0 100%; }
+    td::before { content: attr(data-column) " "; color: var(--quiet); }
+  }
+  .members {
+    th { flex: 1 1 calc(100% - 6rem); }
+    th + td { display: none; }
+    th + td + td { flex: 0 0 5rem; text-align: right; }
+    th + td + td::before { content: none; }
+  }
   .numbers td:nth-child(3):empty { display: none; }
 }
 @page { margin: 12mm; }

@@ -20,7 +20,10 @@
   const script = document.createElement("script");
   script.textContent = await inflated("plotly").text();
   document.head.append(script);
-  const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d"] };
+  // The buttons would cover the legend on a narrow screen.
+  const displayModeBar = matchMedia("(max-width: 700px)").matches ? false : "hover";
+  const modeBarButtonsToRemove = ["select2d", "lasso2d"];
+  const options = { responsive: true, displaylogo: false, displayModeBar, modeBarButtonsToRemove };
   const font = { family: "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif", size: 13 };
 
   // Paper is narrower than most windows: plots have its width while the page is printed.

@@ -182,7 +182,7 @@ def _page(summary: Summary, dpi: int) -> str:
         *(part for panel in summary.second[1:] for part in _shown(panel, dpi, "")),
     ]
     if text.arrivals:
-        parts.append(table(text.arrivals, "runs", summary.head))
+        parts.append(table(text.arrivals, "runs wide", summary.head))
     parts += [f"<h2>{html.escape(say('head_assumptions'))}</h2>", items(text.assumptions)]
     parts += [f"<h2>{html.escape(say('head_limits'))}</h2>", items(summary.limits)]
     origins = "<br>".join(html.escape(line) for line in text.origin)

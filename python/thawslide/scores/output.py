@@ -77,7 +77,7 @@ def stored_section(folder: Path) -> str:
         try:
             found = read_json(folder / JSON, MEGABYTE)
             parts = ["<h2>Score</h2>", f"<p>{html.escape(found['opening'])}</p>"]
-            parts += [table(rows, "runs", head) for head, rows in found["tables"]]
+            parts += [table(rows, "runs wide", head) for head, rows in found["tables"]]
             parts += [f"<p><small>{html.escape(note)}.</small></p>" for note in found["notes"]]
             section = "\n".join(parts)
         except (ReportError, KeyError, TypeError, ValueError, AttributeError):

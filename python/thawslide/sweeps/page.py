@@ -56,7 +56,7 @@ def write_page(
         parts.append(f'<p class="note">{unfinished} members have not finished. Results do not include them.</p>')
     parts += ["<h2>Design</h2>", table(_design_rows(design), "facts"), prior_section(folder.path)]
     numbers = [name for name in members if name not in (*NOT_RESULTS, *keys, *others)]
-    parts += ["<h2>Results</h2>", table(_number_rows(done, numbers), "runs members", _HEAD)]
+    parts += ["<h2>Results</h2>", table(number_rows(done, numbers), "runs wide members", _HEAD)]
     parts += _figure("Spread through time", _SPREAD, lambda: spread(_series(folder, done), weights_of(done)))
     for result in shown if keys else ():
         caption = _SENSITIVITY[design.method]
