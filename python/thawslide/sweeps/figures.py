@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Mapping, Sequence
 
@@ -14,12 +15,14 @@ from matplotlib.ticker import MaxNLocator
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, NOTE, ORANGE, styled, title_figure, title_panels
+from thawslide.number_text import number_text
 from thawslide.sweeps.labels import label, label_of_key, label_of_result, name_and_unit
 from thawslide.sweeps.sensitivity import MORRIS, SOBOL_FIRST, Index
 
 _TIMES = 200  # of the spread
 _MOST_LINES = 200  # individual members behind the spread
 _MOST_INPUTS, _MOST_RESULTS = 6, 4  # rows and columns of the scatter
+_CHARACTERS = 100  # in small letters across all panels of the scatter
 _COMMON = {MORRIS: "elementary effect over the full range", SOBOL_FIRST: "Sobol index (fraction of the variance)"}
 _WORDS = {"speed_m_s": "mean speed (m/s)", "runout_m": "runout distance (m)"}
 
@@ -115,8 +118,20 @@ def scatter(table: pd.DataFrame, inputs: Sequence[str], results: Sequence[str]) 
             panels[-1, column].set_xticks(range(len(names)), names)
         else:
             panels[-1, column].xaxis.set_major_locator(MaxNLocator(2))
-        panels[-1, column].set_xlabel(label_of_key(key), size=7)
+            panels[-1, column].xaxis.set_major_formatter(lambda value, _: number_text(value))
+        panels[-1, column].set_xlabel(_in_lines(label_of_key(key), _CHARACTERS / len(inputs)), size=7)
     return figure
+
+
+def _in_lines(words: str, most: float) -> str:
+    """Return the label of a key in lines of at most `most` characters, broken behind a dot, underscore or space."""
+    lines = [""]
+    for part in re.findall(r"[^._ ]*[._ ]?", words):
+        if len(lines[-1]) + len(part) <= most:
+            lines[-1] += part
+        else:
+            lines.append(part)
+    return "\n".join(lines).strip()
 
 
 def _as_numbers(values: pd.Series) -> tuple[Numbers, list[str]]:

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from thawslide.arrays import Numbers
+from thawslide.arrays import Numbers, is_constant
 from thawslide.atomic_file import atomic_file
 from thawslide.errors import NotInRunError, ReportError, quoted
 from thawslide.forecasts.output import prior_section
@@ -179,7 +179,8 @@ def _distribution_words(variable: Variable) -> str:
     return f"normal, mean {exact_text(variable.centre)}, standard deviation {exact_text(variable.deviation)}{more}"
 
 
-def _number_rows(done: pd.DataFrame, names: Sequence[str]) -> list[tuple[Any, ...]]:
+def number_rows(done: pd.DataFrame, names: Sequence[str]) -> list[tuple[Any, ...]]:
+    """Return the table of results: name, column, unit, mean, standard deviation and quantiles."""
     rows, weights = [], weights_of(done)
     for name in names:
         values = done[name].to_numpy(dtype=float)
@@ -193,6 +194,8 @@ def _number_rows(done: pd.DataFrame, names: Sequence[str]) -> list[tuple[Any, ..
 
 def _moments(values: Numbers, weights: Numbers | None) -> list[float]:
     """Return mean, standard deviation and quantiles."""
+    if values.size > 1 and is_constant(values) and (weights is None or weights.sum() > 0.0):
+        return [float(values[0]), 0.0] + [float(values[0])] * len(_QUANTILES)
     if weights is None:
         deviation = float(values.std(ddof=1)) if values.size > 1 else float("nan")
         return [float(values.mean()), deviation, *map(float, np.percentile(values, _QUANTILES))]

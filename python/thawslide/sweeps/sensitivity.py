@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thawslide.arrays import Numbers
+from thawslide.arrays import Numbers, is_constant
 from thawslide.errors import NotInRunError
 from thawslide.sweeps.design import FACTORIAL, MORRIS_LEVELS, Design, problem_of
 from thawslide.sweeps.variables import Levels
@@ -188,7 +188,7 @@ def _complete_blocks(values: Numbers, size: int) -> Numbers:
 def _require_spread(values: Numbers, count: int) -> None:
     if count < _FEWEST:
         raise NotInRunError(f"too few members with a value (found {count}; needed {_FEWEST}). Use a larger sample.")
-    if np.ptp(values) == 0.0:
+    if is_constant(values):
         raise NotInRunError("all members have the same value. Vary other keys.")
 
 
