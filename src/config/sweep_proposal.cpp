@@ -73,7 +73,7 @@ seed = 1
 # m. Range for forecasts of docs/choosing-the-base.md, 0.1 to 1 m, or up to the band of case.toml, but at most a
 # twentieth of the slide, {thickness} m thick. Assumed: a thicker band is no longer a band.
 "band.thickness" = [{thin:.3g}, {thick:.3g}]
-# Degrees, of the broken material. Assumed: 35 degrees of back-analyses (Hungr and McDougall 2009), and 5 more or less.
+# Degrees, of the broken material. Assumed: 35 degrees, as in docs/choosing-the-base.md, and 5 more or less.
 "material.rock_ice.friction_angle" = [30.0, 40.0]
 {substrates}
 [sweep.lognormal]  # median, and standard deviation of the natural logarithm; truncated at 3 standard deviations
