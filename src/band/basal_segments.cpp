@@ -21,78 +21,26 @@ constexpr double joining_reach = 0.5;
 
 }  // namespace
 
-// Segments of each block, in ascending order.
-template <int Dim>
-void BasalSegments<Dim>::list_segments_by_block(std::size_t blocks) {
-  first_of_block_.assign(blocks + 1, 0);
-  for (const Stencil& stencil : stencils_) {
-    stencil.for_each_block([&](std::size_t b, int /*corner*/) { ++first_of_block_[b]; });
-  }
-  std::uint32_t end = 0;
-  for (std::uint32_t& number : first_of_block_) {
-    end += number;
-    number = end;  // end of the block's segments, for now
-  }
-  by_block_.resize(end);
-  for (std::size_t p = stencils_.size(); p-- > 0;) {
-    stencils_[p].for_each_block([&](std::size_t b, int corner) {
-      by_block_[--first_of_block_[b]] = {static_cast<std::uint32_t>(p), corner};
-    });
-  }
-}
-
-template <int Dim>
-void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes) {
-  using Record = typename mpm::RecordsOf<BaseState, Dim>::Record;
-  std::vector<Record> shared(segments_.size());  // per area of a segment
-  stencils_.resize(segments_.size());
-  parallel_for(segments_.size(), [&](std::size_t p) {
-    const Segment& segment = segments_[p];
-    const physics::BandMeans means = current_means(segment);
-    shared[p] = {};
-    shared[p][BaseState::area] = 1.0;
-    shared[p][BaseState::temperature] = means.temperature;
-    shared[p][BaseState::pressure_ratio] = pressure_ratio(means, segment);
-    shared[p][BaseState::saturation] = means.saturation;
-    shared[p][BaseState::solid_fraction] = means.solid_fraction;
-    shared[p][BaseState::slip] = segment.slip;
-    stencils_[p] = Stencil(grid, segment.position);
-  });
-  list_segments_by_block(grid.blocks().size());
-  nodes.base_state.allocate(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.contains(b); });
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    if (!nodes.base_state.contains(b)) {
-      return;
-    }
-    Record* records = nodes.base_state.of_block(b);
-    std::fill_n(records, nodes.base_state.nodes, Record{});
-    for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
-      const std::size_t p = by_block_[n].segment;
-      const Record& of_segment = shared[p];
-      const double area = segments_[p].area;
-      stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, double weight) {
-        Record& record = records[node];
-        const double fraction = weight * area;
-        for (std::size_t c = 0; c < record.size(); ++c) {
-          record[c] += fraction * of_segment[c];
-        }
-      });
-    }
-  });
-}
-
 template <int Dim>
 void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
                                            const NormalAtNode& node_normal, double thickness, double dt,
                                            mpm::Nodes<Dim>& nodes) {
   THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
                    segments_.size(), stencils_.size());
+  sum_contact(grid, nodes);
   if (checks_gaps_ || some_node_is_bare(grid, nodes)) {
     create_segments(grid, ground, node_normal, thickness, nodes);
     checks_gaps_ = false;
   }
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (has_segments(b)) {
+      gather_from_nodes(grid, b, dt, nodes);
+    }
+  });
   parallel_for(segments_.size(), [&](std::size_t p) {
-    gather_from_nodes(stencils_[p], dt, nodes, segments_[p]);
+    if (stencils_[p].block() == KeyIndex::absent) {
+      take_contact({}, 0.0, 0.0, dt, segments_[p]);
+    }
     segments_[p].position += dt * segments_[p].velocity;
   });
 }
@@ -100,13 +48,20 @@ void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, con
 template <int Dim>
 void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
                                 double duration, const mpm::Nodes<Dim>& nodes) {
-  std::vector<std::uint8_t> alone(segments_.size());
-  parallel_for(segments_.size(), [&](std::size_t p) {
-    const Nearby slide = slide_near(grid, Stencil(grid, segments_[p].position), node_normal, nodes, segments_[p]);
-    alone[p] = slide.is_present ? 0 : 1;
-    if (slide.is_present) {
-      stretch_with(slide, ground, duration, segments_[p]);
+  locate(grid);
+  std::vector<std::uint8_t> alone(segments_.size(), 1);
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (!has_segments(b)) {
+      return;
     }
+    const PatchMotion motion = motion_about(grid, static_cast<std::int32_t>(b), node_normal, nodes);
+    for_each_segment(b, [&](std::size_t p) {
+      const Nearby slide = slide_near(grid.cell(), stencils_[p], motion, segments_[p]);
+      if (slide.is_present) {
+        alone[p] = 0;
+        stretch_with(slide, ground, duration, segments_[p]);
+      }
+    });
   });
   for (std::size_t p = 0; p < segments_.size(); ++p) {
     if (alone[p] != 0) {
@@ -119,14 +74,41 @@ void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& 
   checks_gaps_ = true;
 }
 
+template <int Dim>
+typename BasalSegments<Dim>::PatchMotion BasalSegments<Dim>::motion_about(const mpm::SparseGrid<Dim>& grid,
+                                                                          std::int32_t b,
+                                                                          const NormalAtNode& node_normal,
+                                                                          const mpm::Nodes<Dim>& nodes) const {
+  constexpr std::array<double, 3> of_layer{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};  // of a cubic B-spline
+  PatchMotion motion;
+  const auto at = Patch::nodes_at(grid, b);
+  for (std::size_t place = 0; place < at.size(); ++place) {
+    for (std::size_t layer = 0; at[place].block != KeyIndex::absent && layer < of_layer.size(); ++layer) {
+      const auto adjacent =
+          mpm::Tile<Dim>::adjacent(static_cast<int>(at[place].node), Dim - 1, static_cast<int>(layer) - 1);
+      const std::int32_t block = grid.blocks_about_block(static_cast<std::size_t>(at[place].block))[adjacent.direction];
+      if (block == KeyIndex::absent) {
+        continue;
+      }
+      const auto in_block = static_cast<std::size_t>(block), node = static_cast<std::size_t>(adjacent.local);
+      const double mass = nodes.momentum(in_block, node)[mpm::MomentumLayout<Dim>::mass];
+      if (mass > 0.0) {
+        motion[layer][place] = {
+            of_layer[layer] * mass,
+            mpm::vector_at<Dim>(nodes.motion(in_block, node), mpm::MotionLayout<Dim>::middle_velocity),
+            node_normal(in_block, node)};
+      }
+    }
+  }
+  return motion;
+}
+
 // Velocity of the sliding mass at a segment, and its gradient along the ground: a linear fit to the nodes around it,
 // weighted by mass. Velocities are rotated from the ground normal at the node to that of the segment; a bend of the
 // ground therefore causes no spurious stretching.
 template <int Dim>
-typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::SparseGrid<Dim>& grid,
-                                                                   const Stencil& stencil,
-                                                                   const NormalAtNode& node_normal,
-                                                                   const mpm::Nodes<Dim>& nodes,
+typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(double cell, const Stencil& stencil,
+                                                                   const PatchMotion& motion,
                                                                    const Segment& segment) const {
   // added to the spread of positions, in cells squared, to keep the fit regular
   constexpr double smallest_spread = 1e-3;
@@ -136,78 +118,39 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
   double mass = 0;
   Vector<double, Dim> positions = Vector<double, Dim>::Zero(), velocities = Vector<double, Dim>::Zero();  // times mass
   Matrix<double, Dim> squares = Matrix<double, Dim>::Zero(), together = Matrix<double, Dim>::Zero();
-  stencil.for_each_with_offset([&](std::size_t b, std::size_t node, double weight,
-                                   const Vector<double, Dim>& from_segment) {
-    const double of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
-    if (!(of_node > 0.0)) {
-      return;
+  stencil.for_each_with_offset([&](std::size_t place, double weight, const Vector<double, Dim>& from_segment) {
+    for (std::size_t layer = 0; layer < motion.size(); ++layer) {
+      const NodeMotion& node = motion[layer][place];
+      const double of_node = weight * node.mass;
+      if (!(of_node > 0.0)) {
+        continue;
+      }
+      const Vector<double, Dim> velocity = along_ground(
+          node.normal != nullptr ? turned<Dim>(node.velocity, *node.normal, segment.normal) : node.velocity);
+      Vector<double, Dim> in_space = from_segment;
+      in_space[Dim - 1] =
+          (static_cast<double>(layer) - 1.0) * cell -
+          segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
+      const Vector<double, Dim> position = along_ground(in_space);
+      const Vector<double, Dim> weighted = of_node * position;
+      mass += of_node;
+      positions += weighted;
+      velocities += of_node * velocity;
+      squares += position * weighted.transpose();
+      together += velocity * weighted.transpose();
     }
-    auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
-    const Vector<double, Dim>* normal = node_normal(b, node);
-    velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
-    Vector<double, Dim> in_space = from_segment;
-    in_space[Dim - 1] -=
-        segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
-    const Vector<double, Dim> position = along_ground(in_space);
-    const Vector<double, Dim> weighted = of_node * position;
-    mass += of_node;
-    positions += weighted;
-    velocities += of_node * velocity;
-    squares += position * weighted.transpose();
-    together += velocity * weighted.transpose();
   });
   Nearby result;
   if (!(mass > 0.0)) {
     return result;
   }
   const Vector<double, Dim> mean_position = positions / mass, mean_velocity = velocities / mass;
-  const Matrix<double, Dim> spread =
-      squares - positions * mean_position.transpose() +
-      mass * smallest_spread * grid.cell() * grid.cell() * Matrix<double, Dim>::Identity();
+  const Matrix<double, Dim> spread = squares - positions * mean_position.transpose() +
+                                     mass * smallest_spread * cell * cell * Matrix<double, Dim>::Identity();
   result.gradient = (together - velocities * mean_position.transpose()) * spread.inverse();
   result.velocity = mean_velocity - result.gradient * mean_position;
   result.is_present = true;
   return result;
-}
-
-template <int Dim>
-void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, double dt, const mpm::Nodes<Dim>& nodes,
-                                           Segment& segment) const {
-  double force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
-  stencil.for_each_block([&](std::size_t b, int corner) {
-    if (!nodes.contact.contains(b)) {
-      return;
-    }
-    THAWSLIDE_ASSERT(nodes.base_state.contains(b), "block {} has contact and no state of the base", b);
-    const auto* contacts = &nodes.contact(b, 0);
-    const auto* states = &nodes.base_state(b, 0);
-    stencil.for_each_in(corner, [&](std::size_t node, double weight) {
-      const auto& contact = contacts[node];
-      if (contact[Contact::touching] > 0.0) {
-        const double of_seen = weight / states[node][BaseState::area];
-        force += weight * contact[Contact::normal_force];
-        area += weight * contact[Contact::area];
-        slip += weight * contact[Contact::area] * contact[Contact::slip_speed];
-        heat += of_seen * contact[Contact::friction_heat];
-        borne += of_seen * contact[Contact::normal_force];
-      }
-    });
-  });
-  if (segment.touched || area > 0.0) {
-    update_load(area > 0.0 ? force / area : 0.0, borne, dt, segment);
-  }
-  segment.speed = area > 0.0 ? slip / area : 0.0;
-  segment.slip += dt * segment.speed;
-  segment.heat += dt * heat * segment.area;
-}
-
-// The flow depth follows from the load borne by the segment [Pa]: its part of the nodal normal forces, which are
-// distributed over segments completely. N equals this load under full contact and exceeds it if the sliding mass has
-// holes. If gravity does not press on the ground, the depth is undefined; the largest thickness is used.
-template <int Dim>
-void BasalSegments<Dim>::update_load(double normal_pressure, double borne, double dt, Segment& segment) const {
-  const double weight = model_.density * gravity_.dot(segment.normal);  // [N/m3]
-  follow_load(model_, normal_pressure, weight > 0.0 ? borne / weight : model_.largest_thickness, dt, segment);
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "band/base_stencil.hpp"
 #include "band/segment_step.hpp"
 #include "base/state_numbers.hpp"
 #include "mpm/nodes.hpp"
@@ -72,7 +73,8 @@ class BasalSegments {
   // gravity [m/s2].
   BasalSegments(const ColumnsModel& model, const Vector<double, Dim>& gravity) : model_(model), gravity_(gravity) {}
 
-  // Fills nodes.base_state of the blocks with contact. Call before each take, which uses the same stencils.
+  // Fills nodes.base_state of the blocks with contact: at nodes on the ground, and below them the same. Call before
+  // each update_from_nodes, which uses the same stencils.
   void to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes);
 
   // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
@@ -109,6 +111,7 @@ class BasalSegments {
  private:
   using Segment = BasalSegment<Dim>;
   using Stencil = BaseStencil<Dim>;
+  using Patch = BasePatch<Dim>;
 
   using Lattice = std::array<int, Dim - 1>;  // cell of the horizontal lattice on which segments are created
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<double, Dim>& position) const;
@@ -118,15 +121,27 @@ class BasalSegments {
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const;
   void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
                        double thickness, mpm::Nodes<Dim>& nodes);
-  void list_segments_by_block(std::size_t blocks);
-  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, double fraction = 1) const;
+  void locate(const mpm::SparseGrid<Dim>& grid);
+  [[nodiscard]] bool has_segments(std::size_t b) const { return first_of_block_[b] < first_of_block_[b + 1]; }
+  // Calls visit(p) for the segments above block b.
+  template <class Visit>
+  void for_each_segment(std::size_t b, const Visit& visit) const {
+    for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
+      visit(static_cast<std::size_t>(by_block_[n]));
+    }
+  }
+  void add_area(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil, const Segment& segment,
+                mpm::Nodes<Dim>& nodes, double fraction = 1) const;
+  // Contact of a node with those below it, or the part of a segment.
   struct InContact {
-    double area = 0, normal_force = 0;  // [m2], [N]
+    double area = 0, normal_force = 0;   // [m2], [N]
+    double slip = 0, friction_heat = 0;  // slip speed times area [m3/s], [W]
   };
-  void start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact, double thickness,
-                     mpm::Nodes<Dim>& nodes, Segment& segment);
-  [[nodiscard]] InContact in_contact(const Stencil& stencil, const mpm::Nodes<Dim>& nodes,
-                                     const Segment& segment) const;
+  void sum_contact(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes);
+  void start_segment(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil, const Ground& ground,
+                     const InContact& contact, double thickness, mpm::Nodes<Dim>& nodes, Segment& segment);
+  [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil,
+                                     const mpm::Nodes<Dim>& nodes, const Segment& segment) const;
   [[nodiscard]] Segment new_segment(const Vector<double, Dim - 1>& middle, const Vector<double, Dim - 1>& size,
                                     const Ground& ground);
   // Motion of the sliding mass around a segment.
@@ -135,10 +150,19 @@ class BasalSegments {
     Vector<double, Dim> velocity = Vector<double, Dim>::Zero();  // along the ground [m/s]
     bool is_present = false;
   };
-  [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil,
-                                  const NormalAtNode& node_normal, const mpm::Nodes<Dim>& nodes,
+  // Motion of the nodes of a patch, by layer around the ground and place.
+  struct NodeMotion {
+    double mass = 0;  // times the weight of its layer [kg]
+    Vector<double, Dim> velocity;
+    const Vector<double, Dim>* normal = nullptr;
+  };
+  using PatchMotion = std::array<std::array<NodeMotion, Patch::nodes>, 3>;
+  [[nodiscard]] PatchMotion motion_about(const mpm::SparseGrid<Dim>& grid, std::int32_t b,
+                                         const NormalAtNode& node_normal, const mpm::Nodes<Dim>& nodes) const;
+  [[nodiscard]] Nearby slide_near(double cell, const Stencil& stencil, const PatchMotion& motion,
                                   const Segment& segment) const;
-  void gather_from_nodes(const Stencil& stencil, double dt, const mpm::Nodes<Dim>& nodes, Segment& segment) const;
+  void gather_from_nodes(const mpm::SparseGrid<Dim>& grid, std::size_t b, double dt, const mpm::Nodes<Dim>& nodes);
+  void take_contact(const InContact& around, double heat, double pressure, double dt, Segment& segment) const;
   void stretch_with(const Nearby& slide, const Ground& ground, double dt, Segment& segment) const;
   void split_long_segments(double most, const Ground& ground);
   void merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground);
@@ -152,15 +176,11 @@ class BasalSegments {
   ColumnsModel model_;
   Vector<double, Dim> gravity_;
   std::vector<Segment> segments_;
-  // Stencils of this step, by segment, and the segments whose stencils reach a block: those of block b begin at
-  // first_of_block_[b].
+  // Stencils of this step, by segment, and the segments above a block: those of block b begin at first_of_block_[b].
   std::vector<Stencil> stencils_;
-  struct Seen {
-    std::uint32_t segment;
-    int corner;  // of the segment's stencil
-  };
-  std::vector<std::uint32_t> first_of_block_;
-  std::vector<Seen> by_block_;
+  std::vector<std::uint32_t> first_of_block_, by_block_;
+  std::vector<std::array<typename mpm::RecordsOf<mpm::BaseState, Dim>::Record, Patch::nodes>> patches_;  // by block
+  std::vector<InContact> contact_;  // by block with nodes on the ground, and node of layer 0
   ColumnLedger budget_;
   std::int64_t next_id_ = 0;
   bool checks_gaps_ = true;

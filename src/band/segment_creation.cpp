@@ -118,24 +118,29 @@ void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const
     }
     segments_.push_back(new_segment(middle, Vector<double, Dim - 1>::Constant(grid.cell()), ground));
     stencils_.emplace_back(grid, segments_.back().position);
-    add_area(stencils_.back(), segments_.back(), nodes);
+    add_area(grid, stencils_.back(), segments_.back(), nodes);
   }
   std::vector<InContact> contacts;
   for (std::size_t p = known; p < segments_.size(); ++p) {
-    contacts.push_back(in_contact(stencils_[p], nodes, segments_[p]));
+    contacts.push_back(in_contact(grid, stencils_[p], nodes, segments_[p]));
   }
   for (std::size_t p = known; p < segments_.size(); ++p) {
-    start_segment(stencils_[p], ground, contacts[p - known], thickness, nodes, segments_[p]);
-    segments_[p].velocity = slide_near(grid, stencils_[p], node_normal, nodes, segments_[p]).velocity;
+    start_segment(grid, stencils_[p], ground, contacts[p - known], thickness, nodes, segments_[p]);
+    const PatchMotion motion = motion_about(grid, stencils_[p].block(), node_normal, nodes);
+    segments_[p].velocity = slide_near(grid.cell(), stencils_[p], motion, segments_[p]).velocity;
+  }
+  if (segments_.size() > known) {
+    locate(grid);
   }
 }
 
 // At the edge of the sliding mass, a segment is smaller than its lattice cell.
 template <int Dim>
-void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
-                                       double thickness, mpm::Nodes<Dim>& nodes, Segment& segment) {
+void BasalSegments<Dim>::start_segment(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil, const Ground& ground,
+                                       const InContact& contact, double thickness, mpm::Nodes<Dim>& nodes,
+                                       Segment& segment) {
   const double fraction = std::clamp(contact.area / segment.area, 0.1, 1.0);
-  add_area(stencil, segment, nodes, fraction - 1.0);
+  add_area(grid, stencil, segment, nodes, fraction - 1.0);
   segment.sides *= std::pow(fraction, 1.0 / static_cast<double>(Dim - 1));
   segment.area = segment.area_of_column = ground.area_of(segment.position, segment.sides);
   update_load(contact.area > 0.0 ? contact.normal_force / contact.area : 0.0, contact.normal_force / segment.area, 0.0,
@@ -144,35 +149,6 @@ void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& gro
   keep_means(model_, segment);
   budget_.created_heat += segment.area * physics::heat_of(segment.column);
   budget_.created_water += segment.area * physics::water_of(segment.column);
-}
-
-// Adds a multiple of a segment's area to the nodes in reach.
-template <int Dim>
-void BasalSegments<Dim>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes,
-                                  double fraction) const {
-  stencil.for_each([&](std::size_t b, std::size_t node, double weight) {
-    if (nodes.base_state.contains(b)) {
-      nodes.base_state.of_block(b)[node][BaseState::area] += fraction * weight * segment.area;
-    }
-  });
-}
-
-// Contact area and force attributed to a segment: nodes distribute theirs over the segments in reach.
-template <int Dim>
-typename BasalSegments<Dim>::InContact BasalSegments<Dim>::in_contact(const Stencil& stencil,
-                                                                      const mpm::Nodes<Dim>& nodes,
-                                                                      const Segment& segment) const {
-  InContact result;
-  stencil.for_each([&](std::size_t b, std::size_t node, double weight) {
-    const double seen = nodes.base_state(b, node)[BaseState::area];
-    if (seen > 0.0) {
-      const auto& contact = nodes.contact(b, node);
-      const double fraction = weight * segment.area / seen;
-      result.area += fraction * contact[Contact::area];
-      result.normal_force += fraction * contact[Contact::normal_force];
-    }
-  });
-  return result;
 }
 
 template <int Dim>

@@ -142,6 +142,7 @@ class ColumnGrid {
   [[nodiscard]] THAWSLIDE_HD double face(int f) const { return face_[f]; }  // of the sliding mass, above the base [m]
   [[nodiscard]] THAWSLIDE_HD double height(int cell) const { return height_[cell]; }  // of any cell [m]
   [[nodiscard]] THAWSLIDE_HD double slide_height(int cell) const { return height_[ColumnCells::ground + cell]; }
+  [[nodiscard]] THAWSLIDE_HD const double* heights() const { return height_; }
 
  private:
   double face_[ColumnCells::slide + 1];

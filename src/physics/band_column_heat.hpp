@@ -2,19 +2,44 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "physics/band_column.hpp"
+#ifndef __CUDACC__
+#include "base/simd.hpp"
+#endif
 
 namespace thawslide::physics {
 
+// Cells of the sliding mass that are computed at once: as lanes on the CPU, one by one on a device.
+#ifdef __CUDACC__
+using CellLanes = double;
+inline constexpr int cell_lanes = 1;
+THAWSLIDE_HD inline CellLanes load_cells(const double* numbers) { return *numbers; }
+THAWSLIDE_HD inline void store_cells(CellLanes lanes, double* numbers) { *numbers = lanes; }
+#else
+using CellLanes = Simd<double, 4>;
+inline constexpr int cell_lanes = 4;
+inline CellLanes load_cells(const double* numbers) {  // of any alignment
+  CellLanes::Native lanes;
+  std::memcpy(&lanes, numbers, sizeof lanes);
+  return CellLanes(lanes);
+}
+inline void store_cells(CellLanes lanes, double* numbers) {
+  const CellLanes::Native of_lanes = lanes.native();
+  std::memcpy(numbers, &of_lanes, sizeof of_lanes);
+}
+#endif
+static_assert(ColumnCells::slide % cell_lanes == 0);
+
 // Capacities and latent heat of a cell of the sliding mass, per area: rock by volume, ice and water by mass [kg/m2].
-template <class Curve>
-THAWSLIDE_HD EnthalpyCoefficients<double> slide_coefficients(const ColumnModel<Curve>& model, double height,
-                                                             double water) {
+template <class Curve, class Value>
+THAWSLIDE_HD EnthalpyCoefficients<Value> slide_coefficients(const ColumnModel<Curve>& model, Value height,
+                                                            Value water) {
   const Phases& phases = model.phases;
-  const double rock = (1.0 - model.porosity) * height * phases.rock_density * phases.rock_heat_capacity;
+  const Value rock = (1.0 - model.porosity) * height * phases.rock_density * phases.rock_heat_capacity;
   return {rock + water * phases.ice_heat_capacity, water * (phases.water_heat_capacity - phases.ice_heat_capacity),
-          model.latent ? water * phases.latent_heat : 0.0};
+          model.latent ? water * phases.latent_heat : Value(0)};
 }
 
 template <class Curve>
@@ -39,21 +64,46 @@ THAWSLIDE_HD bool is_melted(const ColumnModel<Curve>& model, const BandColumn& c
   return column.temperature[ColumnCells::ground + cell] >= model.curve.reference_temperature;
 }
 
-// Temperature [C] of a cell with this enthalpy [J/m2]. guess: initial value of the iteration. The ground does not
-// freeze.
+// Coefficients of all cells of a column.
+struct ColumnCoefficients {
+  double frozen[ColumnCells::all], rise[ColumnCells::all], melting[ColumnCells::all];
+
+  template <class Curve>
+  THAWSLIDE_HD ColumnCoefficients(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column) {
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground; ++k) {
+      frozen[k] = model.ground_capacity * grid.height(k);
+      rise[k] = melting[k] = 0.0;
+    }
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; k += cell_lanes) {
+      const int cell = ColumnCells::ground + k;
+      const auto of = slide_coefficients(model, load_cells(grid.heights() + cell), load_cells(column.water + k));
+      store_cells(of.frozen, frozen + cell);
+      store_cells(of.rise, rise + cell);
+      store_cells(of.melting, melting + cell);
+    }
+  }
+  [[nodiscard]] THAWSLIDE_HD EnthalpyCoefficients<CellLanes> of_cells(int cell) const {
+    return {load_cells(frozen + cell), load_cells(rise + cell), load_cells(melting + cell)};
+  }
+};
+
+// Temperatures [C] of the cells with these enthalpies [J/m2]. temperature: initial values of the iteration. The ground
+// does not freeze.
 template <class Curve>
-THAWSLIDE_HD double cell_temperature(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
-                                     int cell, double heat, double guess) {
-  const auto of = cell_coefficients(model, grid, column, cell);
-  return cell < ColumnCells::ground ? model.curve.reference_temperature + heat / of.frozen
-                                    : temperature_of_enthalpy(model.curve, of, heat, guess);
+THAWSLIDE_HD void find_temperatures(const Curve& curve, const ColumnCoefficients& of, const double* heat,
+                                    double* temperature) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground; ++k) {
+    temperature[k] = curve.reference_temperature + heat[k] / of.frozen[k];
+  }
+  THAWSLIDE_ROLLED for (int k = ColumnCells::ground; k < ColumnCells::all; k += cell_lanes) {
+    store_cells(temperature_of_enthalpy(curve, of.of_cells(k), load_cells(heat + k), load_cells(temperature + k)),
+                temperature + k);
+  }
 }
 
 template <class Curve>
 THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Curve>& model, const ColumnGrid& grid, BandColumn& column) {
-  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
-    column.temperature[k] = cell_temperature(model, grid, column, k, column.heat[k], column.temperature[k]);
-  }
+  find_temperatures(model.curve, ColumnCoefficients(model, grid, column), column.heat, column.temperature);
 }
 
 // Heat conductance [W/m2/K] between cells k and k + 1.
@@ -62,30 +112,32 @@ struct ColumnConductance {
   double between[ColumnCells::all - 1];
 
   THAWSLIDE_HD ColumnConductance(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column) {
-    double below = half_resistance(model, grid, column, 0);
+    double half_resistance[ColumnCells::all];
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground; ++k) {
+      half_resistance[k] = grid.height(k) / (2.0 * model.ground_conductivity);
+    }
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; k += cell_lanes) {
+      const int cell = ColumnCells::ground + k;
+      const CellLanes height = load_cells(grid.heights() + cell);
+      const CellLanes conductivity =
+          of_slide(model, height, load_cells(column.temperature + cell), load_cells(column.water + k));
+      store_cells(height / (2.0 * conductivity), half_resistance + cell);
+    }
     THAWSLIDE_ROLLED for (int k = 0; k + 1 < ColumnCells::all; ++k) {
-      const double above = half_resistance(model, grid, column, k + 1);
-      between[k] = 1.0 / (below + above);
-      below = above;
+      between[k] = 1.0 / (half_resistance[k] + half_resistance[k + 1]);
     }
   }
 
  private:
   // Only the fraction of the pores filled with ice and water conducts; steam and air do not.
-  THAWSLIDE_HD static double of_slide(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
-                                      int k) {
-    const double saturation = model.curve.saturation(column.temperature[k]);
-    const double full = saturation * model.phases.water_density + (1.0 - saturation) * model.phases.ice_density;
-    const double volume = column.water[k - ColumnCells::ground] / (full * grid.height(k));
+  template <class Value>
+  THAWSLIDE_HD static Value of_slide(const ColumnModel<Curve>& model, Value height, Value temperature, Value water) {
+    const Value saturation = model.curve.saturation(temperature);
+    const Value full = saturation * model.phases.water_density + (1.0 - saturation) * model.phases.ice_density;
+    const Value volume = water / (full * height);
     const double rock = (1.0 - model.porosity) * model.phases.rock_conductivity;
-    const double of_pores = conductivity(model.phases, model.porosity, saturation) - rock;
-    return rock + of_pores * min(1.0, max(0.0, volume / model.porosity));
-  }
-
-  THAWSLIDE_HD static double half_resistance(const ColumnModel<Curve>& model, const ColumnGrid& grid,
-                                             const BandColumn& column, int k) {
-    return grid.height(k) /
-           (2.0 * (k < ColumnCells::ground ? model.ground_conductivity : of_slide(model, grid, column, k)));
+    const Value of_pores = conductivity(model.phases, Value(model.porosity), saturation) - rock;
+    return rock + of_pores * min(Value(1), max(Value(0), volume / model.porosity));
   }
 };
 
@@ -114,6 +166,7 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const Colum
   constexpr int count = ColumnCells::all, most_iterations = 12;
   constexpr double close = 1e-7;  // [K]
   const ColumnConductance<Curve> conductance(model, grid, column);
+  const ColumnCoefficients of(model, grid, column);
   double guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { guess[k] = column.heat[k]; }
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -122,9 +175,12 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const Colum
     THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
       flow[k] = dt * conductance.between[k - 1] * (column.temperature[k - 1] - column.temperature[k]);
     }
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground; ++k) { capacity[k] = of.frozen[k]; }
+    THAWSLIDE_ROLLED for (int k = ColumnCells::ground; k < count; k += cell_lanes) {
+      store_cells(physics::apparent_capacity(model.curve, of.of_cells(k), load_cells(column.temperature + k)),
+                  capacity + k);
+    }
     THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
-      capacity[k] =
-          physics::apparent_capacity(model.curve, cell_coefficients(model, grid, column, k), column.temperature[k]);
       below[k] = k > 0 ? -dt * conductance.between[k - 1] : 0.0;
       above[k] = k + 1 < count ? -dt * conductance.between[k] : 0.0;
       diagonal[k] = capacity[k] - below[k] - above[k];
@@ -135,8 +191,8 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const Colum
     THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       guess[k] += capacity[k] * change[k];
       largest = max(largest, std::abs(change[k]));
-      column.temperature[k] = cell_temperature(model, grid, column, k, guess[k], column.temperature[k]);
     }
+    find_temperatures(model.curve, of, guess, column.temperature);
     if (largest < close) {
       break;
     }

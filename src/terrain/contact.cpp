@@ -212,7 +212,6 @@ template <int Dim>
 void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                      const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time, double dt,
                      mpm::Nodes<Dim>& nodes) {
-  constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   // by block: 1 if a node is loaded; persistent, to avoid allocation in each step
   thread_local std::vector<std::uint8_t> buffer;
   buffer.assign(grid.blocks().size(), 0);
@@ -223,12 +222,12 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
       return;
     }
     const mpm::BlockConstraints<Dim> on_block(grid, constraints, b, time);
-    for (std::size_t k = 0; k < block_nodes; ++k) {
+    std::fill_n(nodes.base.of_block(b), nodes.base.nodes, typename mpm::SparseRecords<Dim, BaseLayout::size>::Record{});
+    for (std::size_t k = 0; k < ground.candidates(b); ++k) {
       auto& base = nodes.base.of_block(b)[k];
-      base.fill(0.0);
       const GroundAtNode<Dim>& known = ground.block(b)[k];
       const auto& record = nodes.momentum(b, k);
-      if (known.candidate && record[MomentumLayout<Dim>::mass] > 0.0) {
+      if (record[MomentumLayout<Dim>::mass] > 0.0) {
         const mpm::NodeConstraints<Dim> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
@@ -249,7 +248,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
         })) {
       return;
     }
-    for (std::size_t k = 0; k < block_nodes; ++k) {
+    for (std::size_t k = 0; k < ground.candidates(b); ++k) {
       const GroundAtNode<Dim>& known = ground.block(b)[k];
       if (known.area > 0.0) {
         nodes.base.of_block(b)[k][BaseLayout::covered] =

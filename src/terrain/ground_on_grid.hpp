@@ -69,7 +69,7 @@ class GroundOnGrid {
       }
     }
     blocks_.resize(keys_.size());
-    any_candidate_.resize(keys_.size());
+    candidates_.resize(keys_.size());
     partly_unknown_.resize(keys_.size());
     parallel_for(keys_.size() - known_before,
                  [&](std::size_t k) { evaluate(surface, substrates, grid.cell(), known_before + k); });
@@ -93,9 +93,11 @@ class GroundOnGrid {
 
   // Ground at the nodes of active block b.
   [[nodiscard]] const Block& block(std::size_t b) const { return blocks_[static_cast<std::size_t>(number_[b])]; }
-  [[nodiscard]] bool any_candidate(std::size_t b) const {
-    return any_candidate_[static_cast<std::size_t>(number_[b])] != 0;
+  // Number of candidate nodes of active block b; they are its first nodes.
+  [[nodiscard]] std::size_t candidates(std::size_t b) const {
+    return candidates_[static_cast<std::size_t>(number_[b])];
   }
+  [[nodiscard]] bool any_candidate(std::size_t b) const { return candidates(b) != 0; }
   // True if the ground below active block b, or within one cell around it, has no-data parts.
   [[nodiscard]] bool partly_unknown(std::size_t b) const {
     return partly_unknown_[static_cast<std::size_t>(number_[b])] != 0;
@@ -113,7 +115,7 @@ class GroundOnGrid {
     KeyIndex index;
     std::vector<std::uint64_t> keys;
     std::vector<Block> blocks;
-    std::vector<std::uint8_t> any_candidate, partly_unknown;
+    std::vector<std::uint8_t> candidates, partly_unknown;
     for (const std::uint64_t key : grid.blocks()) {
       const std::int32_t former = index_.find(key);
       if (former != KeyIndex::absent) {
@@ -121,27 +123,29 @@ class GroundOnGrid {
         index.insert(key);
         keys.push_back(key);
         blocks.push_back(blocks_[k]);
-        any_candidate.push_back(any_candidate_[k]);
+        candidates.push_back(candidates_[k]);
         partly_unknown.push_back(partly_unknown_[k]);
       }
     }
     index_ = std::move(index);
     keys_ = std::move(keys);
     blocks_ = std::move(blocks);
-    any_candidate_ = std::move(any_candidate);
+    candidates_ = std::move(candidates);
     partly_unknown_ = std::move(partly_unknown);
   }
 
   void evaluate(const FollowingGround<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     query_ground<Dim>(surface, substrates, keys_[k], cell, blocks_[k].data());
-    any_candidate_[k] = first_node_of<Dim>(keys_[k])[Dim - 1] <= 0 ? 1 : 0;
+    const int lowest = first_node_of<Dim>(keys_[k])[Dim - 1];
+    const int layers = std::clamp(1 - lowest, 0, T::edge);
+    candidates_[k] = static_cast<std::uint8_t>(layers * T::rows);
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
   }
 
   KeyIndex index_;  // block key -> index in keys_, blocks_ and the marks
   std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
-  std::vector<std::uint8_t> any_candidate_, partly_unknown_;
+  std::vector<std::uint8_t> candidates_, partly_unknown_;
   std::vector<std::int32_t> number_;  // active block -> index in blocks_
   std::vector<int> lowest_layer_;     // of nodes in reach of the particles, by tile
 };
