@@ -9,6 +9,7 @@
 #include "gis/coverage.hpp"
 #include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
+#include "gis/named_polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
@@ -211,17 +212,10 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
                              std::vector<std::string>& warnings) {
   const config::Body& body = parameters.bodies.at(name);
   ReleaseArea area;
-  area.layer = with_error_location(parameters, key_of(name, "release"),
-                                   [&] { return read_polygons(body.release, ground.raster.crs); });
-  warnings.insert(warnings.end(), area.layer.warnings.begin(), area.layer.warnings.end());
-  area.layer.features = with_error_location(parameters, key_of(name, "polygons"), [&] {
-    return features_named(area.layer, body.polygons, body.name_attribute);
-  });
-  Polygons all;
-  for (const Feature& feature : area.layer.features) {
-    all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
-  }
-  area.polygons = union_of(all);
+  area.layer =
+      read_named_polygons(parameters, {key_of(name, ""), "release", body.release, body.polygons, body.name_attribute},
+                          ground.raster.crs, warnings);
+  area.polygons = union_of_features(area.layer);
   const Rectangle extent = extent_of(area.polygons);
   check_area(parameters, name, extent, ground);
   check_taper(parameters, name, extent, ground);

@@ -9,8 +9,7 @@
 #include "gis/code_raster.hpp"
 #include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
-#include "gis/polygons.hpp"
-#include "gis/vector_file.hpp"
+#include "gis/named_polygons.hpp"
 
 namespace thawslide::gis {
 
@@ -35,27 +34,12 @@ std::string area_key(const std::string& name, const config::Substrate& substrate
 config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
                                       Polygons& inside, std::vector<std::string>& warnings) {
   const config::Substrate& substrate = parameters.substrates.at(name);
-  const std::string key = substrate_key(name, "outline");
-  const VectorLayer layer =
-      with_error_location(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
-  warnings.insert(warnings.end(), layer.warnings.begin(), layer.warnings.end());
-  Polygons all;
-  for (const Feature& feature : with_error_location(parameters, substrate_key(name, "polygons"), [&] {
-         return features_named(layer, substrate.polygons, substrate.name_attribute);
-       })) {
-    all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
-  }
-  const Polygons polygons = union_of(all);
-  const Rectangle domain = domain_of(parameters);
+  const PolygonRequest request{substrate_key(name, ""), "outline", substrate.outline, substrate.polygons,
+                               substrate.name_attribute};
+  const Polygons polygons = union_of_features(read_named_polygons(parameters, request, ground.raster.crs, warnings));
+  inside = part_in_domain(parameters, request, polygons);
   config::SubstrateArea area;
-  inside = intersection_of(polygons, {box_polygon(domain)});
   area.area = area_of(inside);
-  if (!(area.area > 0.0)) {
-    fail_at(parameters, key,
-            fmt::format("{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and "
-                        "reference system.",
-                        substrate.outline, format_range(extent_of(polygons)), format_range(domain)));
-  }
   for (const Polygon& polygon : polygons) {
     area.rings.push_back(polygon.outline);
     area.rings.insert(area.rings.end(), polygon.holes.begin(), polygon.holes.end());
