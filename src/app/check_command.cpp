@@ -73,6 +73,9 @@ SetupFacts facts_of(sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>
   }
   facts.bodies = sim::body_figures(simulation);
   facts.substrates = substrate_facts(parameters, simulation.site());
+  if (const auto* bed = simulation.bed()) {
+    facts.bed_volume = bed->sums().initial / bed->material().density;
+  }
   facts.roughness = simulation.site().roughness;
   facts.particles = simulation.particles().size();
   facts.cells = 1.0;

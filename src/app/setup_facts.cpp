@@ -206,6 +206,10 @@ std::string text_of(const SetupFacts& facts) {
   for (const SubstrateFacts& substrate : facts.substrates) {
     text += text_of(substrate, facts.dimension);
   }
+  if (facts.bed_volume) {
+    text += fmt::format("  bed         {} m3 can be entrained{}\n", rounded_text(*facts.bed_volume, 3),
+                        facts.dimension == 2 ? " per metre of width" : "");
+  }
   if (facts.roughness) {
     text += text_of(*facts.roughness);
   }
@@ -243,6 +247,7 @@ std::string json_of(const SetupFacts& facts) {
   json["warnings"] = facts.warnings;
   json["bodies"] = list_of(facts.bodies);
   json["substrates"] = list_of(facts.substrates);
+  json["bed_volume_m3"] = facts.bed_volume ? Json(*facts.bed_volume) : Json();
   json["roughness"] = Json();
   for (const auto& [name, value] : facts.roughness ? config::named(*facts.roughness) : config::NamedFigures{}) {
     json["roughness"][name] = value;

@@ -32,6 +32,7 @@ struct SetupFacts {
   std::vector<std::string> warnings;
   std::vector<sim::BodyFigures> bodies;
   std::vector<SubstrateFacts> substrates;
+  std::optional<double> bed_volume;            // of the erodible bed [m3], per metre of width in 2D
   std::optional<config::Roughness> roughness;  // of a DEM
   std::size_t particles = 0;
   double cells = 0.0;                          // in the domain

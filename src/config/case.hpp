@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "config/case_bed.hpp"
 #include "config/case_output.hpp"
 #include "config/case_source.hpp"
 #include "physics/basal/parameter.hpp"
@@ -23,7 +24,6 @@ using Point = std::array<double, 3>;  // x, y in 2D (third 0); x, y, z in 3D
 
 using physics::BandGrowth;
 using physics::BandRegion;
-using physics::BedLaw;
 using physics::BoundaryKind;
 using physics::EndOfWater;
 using physics::FrictionClamp;
@@ -245,18 +245,6 @@ struct Substrate : GroundStrength {
   int code = 0;
 
   [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
-};
-
-// Erodible bed that the slide entrains.
-struct Bed {
-  BedLaw law = BedLaw::none;
-  InitialField depth;         // m, vertical: a number, a table over x, a raster
-  double strength = 0;        // Pa, c_b
-  double friction_angle = 0;  // phi_b
-  double depth_per_slip = 0;  // 1
-  std::string material;
-  double temperature = -10.0, porosity = 0.9;
-  int particles_per_axis = 2;  // per cell and axis, for entrained material
 };
 
 // Contact between bodies: [contact] for all, [contact_pair.NAME] for two.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "config/checks.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::config {
 
@@ -15,10 +16,19 @@ void check_depth(const Case& checked, Reading& reading) {
   if (!reading.are_valid({key})) {
     return;
   }
-  if (depth.over == InitialField::Over::depth || depth.over == InitialField::Over::attribute) {
-    reading.report(key, fmt::format("{} is given by {}; allowed: a number, {{ x = [...], value = [...] }} or {{ raster "
-                                    "= \"FILE\" }}, since a bed has no polygons and lies on the ground.",
-                                    key, depth.over == InitialField::Over::depth ? "depth" : "an attribute"));
+  if (depth.over == InitialField::Over::depth) {
+    reading.report(key,
+                   fmt::format("{} is given by depth; allowed: a number, {{ x = [...], value = [...] }}, {{ "
+                               "attribute = \"NAME\" }} or {{ raster = \"FILE\" }}, since a bed lies on the ground.",
+                               key));
+  } else if (depth.over == InitialField::Over::attribute) {
+    if (checked.bed.outline.empty() && reading.are_valid({"bed.outline"})) {
+      reading.report_misfit(
+          {key, "bed.outline"},
+          fmt::format("{} is the attribute \"{}\", and bed.outline is not given; there are no polygons to have it. "
+                      "Give the file of polygons, or a number, a table or a raster.",
+                      key, shown(depth.source)));
+    }
   } else if (depth.is_map()) {
     if (reading.are_valid({"terrain.type"}) && checked.terrain.kind != TerrainKind::dem) {
       reading.report_misfit({key, "terrain.type"},
@@ -38,6 +48,26 @@ void check_depth(const Case& checked, Reading& reading) {
   }
 }
 
+void check_outline(const Case& checked, Reading& reading) {
+  const InitialField::Over over = checked.bed.depth.over;
+  const std::string key = "bed.outline", depth = "bed.depth";
+  if (checked.bed.outline.empty() || !reading.are_valid({key})) {
+    return;
+  }
+  if (reading.are_valid({"terrain.type"}) && checked.terrain.kind != TerrainKind::dem) {
+    reading.report_misfit({key, "terrain.type"},
+                          fmt::format("{} is given, and terrain.type is not \"dem\"; maps lie on a DEM. Remove {}, or "
+                                      "set terrain.type = \"dem\" and terrain.file.",
+                                      key, key));
+  } else if (reading.are_valid({depth}) && (over == InitialField::Over::raster || over == InitialField::Over::x)) {
+    reading.report_misfit(
+        {key, depth},
+        fmt::format("{} is given, and {} is {}; allowed with polygons: a number or {{ attribute = "
+                    "\"NAME\" }}, since each says where the bed lies. Remove {}, or change {}.",
+                    key, depth, over == InitialField::Over::raster ? "a raster" : "a table over x", key, depth));
+  }
+}
+
 }  // namespace
 
 void check_bed(const Case& checked, Reading& reading) {
@@ -45,6 +75,7 @@ void check_bed(const Case& checked, Reading& reading) {
     return;
   }
   check_depth(checked, reading);
+  check_outline(checked, reading);
   check_material(checked, "bed", checked.bed.material, reading);
   if (reading.are_valid({"terrain.type"}) && checked.terrain.kind == TerrainKind::none) {
     reading.report_misfit(

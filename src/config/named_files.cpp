@@ -32,6 +32,7 @@ std::vector<InputFile> map_files(const Case& parameters) {
     files.push_back({table + "outline", substrate.outline});
     files.push_back({table + "raster", substrate.raster});
   }
+  files.push_back({"bed.outline", parameters.bed.outline});
   if (parameters.bed.depth.over == InitialField::Over::raster) {
     files.push_back({"bed.depth", parameters.bed.depth.source});
   }

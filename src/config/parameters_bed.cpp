@@ -20,7 +20,8 @@ std::vector<Parameter<Bed>> law_parameters() {
            .unit = "m",
            .range = at_least(0),
            .text =
-               "vertical depth of the bed, at most grid.cell; the terrain is not lowered where the bed is entrained"})
+               "vertical depth of the bed, at most grid.cell; an attribute is that of the polygons of bed.outline; the "
+               "terrain is not lowered where the bed is entrained"})
           .required_if(when_erodible, is_erodible)
           .only_if(when_erodible, "law", is_erodible),
       parameter(&Bed::strength, {.key = "strength",
@@ -41,6 +42,25 @@ std::vector<Parameter<Bed>> law_parameters() {
                  .text = "entrained depth per slip [m/m] if the bed yields; with the law \"momentum\", its maximum"})
           .required_if(when_erodible, is_erodible)
           .only_if(when_erodible, "law", is_erodible),
+  };
+}
+
+std::vector<Parameter<Bed>> bed_area_parameters() {
+  const auto has_outline = [](const Case&, const Bed& bed) { return bed.law != BedLaw::none && !bed.outline.empty(); };
+  const char* const when_outline = "when bed.law is not \"none\" and outline is given";
+  return {
+      parameter(&Bed::outline, {.key = "outline",
+                                .text = "file of the polygons that the bed covers: Shapefile, GeoPackage or GeoJSON",
+                                .dimension = 3,
+                                .is_path = true})
+          .otherwise("the bed covers the domain")
+          .only_if(when_erodible, "law", is_erodible),
+      parameter(&Bed::polygons,
+                {.key = "polygons", .text = "names of the polygons that the bed covers; []: all polygons of the file"})
+          .only_if(when_outline, "outline", has_outline),
+      parameter(&Bed::name_attribute,
+                {.key = "name_attribute", .text = "attribute that contains the names of the polygons"})
+          .only_if(when_outline, "outline", has_outline),
   };
 }
 
@@ -71,8 +91,8 @@ std::vector<Parameter<Bed>> bed_material_parameters() {
 
 void declare_bed(Tables& tables) {
   std::vector<Parameter<Bed>> parameters = law_parameters();
-  for (auto& more : bed_material_parameters()) {
-    parameters.push_back(std::move(more));
+  for (const auto& more : {bed_area_parameters(), bed_material_parameters()}) {
+    parameters.insert(parameters.end(), more.begin(), more.end());
   }
   tables.push_back(std::make_unique<SingleTable<Bed>>("bed", "Erodible bed of ice or debris on the terrain", &Case::bed,
                                                       std::move(parameters)));

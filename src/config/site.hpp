@@ -74,6 +74,7 @@ struct Site {
   Polyline2 path;                           // along which the front is measured; empty if none is given
   std::map<std::string, Polyline2> probes;  // by name: one point, or a line
   Raster bed_depth;                         // [m], at the points of the ground; empty if no raster is given
+  Raster bed_in_columns;                    // [m], mean over the cell of each column of nodes; empty without polygons
   std::string crs;                          // of all maps, as WKT
   std::string heights;                      // vertical reference system of the ground; empty: not specified
   std::string crs_name;                     // "EPSG:31287", or its title; empty if none is known

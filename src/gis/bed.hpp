@@ -1,4 +1,4 @@
-// Depth of the erodible bed of a case, from a raster.
+// Depth of the erodible bed of a case, from a raster or polygons.
 #pragma once
 
 #include <string>
@@ -13,5 +13,11 @@ namespace thawslide::gis {
 // the domain, or with a depth below 0 or above grid.cell.
 [[nodiscard]] Raster load_bed_depth(const config::Case& parameters, const Dem& ground,
                                     std::vector<std::string>& warnings);
+
+// Means over the cells of the columns of nodes, by the exact area of the polygons in each cell and in the domain; empty
+// if no polygons are specified. Throws UserError for polygons outside the domain, for a depth that is missing, below 0
+// or above grid.cell, and for polygons of different depths that overlap.
+[[nodiscard]] Raster load_bed_in_columns(const config::Case& parameters, const Dem& ground,
+                                         std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

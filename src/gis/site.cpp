@@ -112,6 +112,7 @@ SiteAndWarnings load_site(const config::Case& parameters) {
   if (!dem.raster.empty()) {
     site.substrates = load_substrates(parameters, dem, loaded.warnings);
     site.bed_depth = load_bed_depth(parameters, dem, loaded.warnings);
+    site.bed_in_columns = load_bed_in_columns(parameters, dem, loaded.warnings);
     site.terrain_model = {{{dem.span.min_x, dem.span.min_y}, {dem.span.max_x, dem.span.max_y}}};
     if (!dem.before_smoothing.empty()) {
       site.before_smoothing = std::make_shared<const Raster>(std::move(dem.before_smoothing));

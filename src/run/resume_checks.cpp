@@ -137,9 +137,10 @@ std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inp
 }
 
 void report_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
+  const config::Case names_no_files;
   for (const io::InputFile& input : inputs) {
     if (error.find(input.copy) != std::string::npos) {
-      require_same_inputs(folder, {input}, {});
+      require_same_inputs(folder, {input}, names_no_files);
     }
   }
 }

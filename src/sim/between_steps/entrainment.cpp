@@ -15,14 +15,19 @@ namespace {
 
 // Minimum fraction of a full particle; smaller volumes wait, because particles with almost no mass are useless.
 constexpr double least_fraction = 0.01;
-// Volume of bed below the nodes of a column [m3], over the part of the domain nearest to them. The depth is sampled at
-// the same number of points along each axis.
+// Volume of bed below the nodes of a column [m3], over the part of the domain nearest to them. That of polygons is
+// exact; other depths are sampled at the same number of points along each axis.
 template <int Dim>
 double volume_below(const config::Case& parameters, const config::Site& site,
                     const typename terrain::Bed<Dim>::Column& column) {
   constexpr int samples = 4;
   const config::Grid& grid = parameters.grid;
   const InitialField& depth = parameters.bed.depth;
+  if constexpr (Dim == 3) {
+    if (!site.bed_in_columns.empty()) {
+      return site.bed_in_columns.at(column[0], column[1]) * grid.cell * grid.cell;
+    }
+  }
   double sum = 0.0;
   const auto coordinate = [&](int number, std::size_t axis) {
     const double part = (static_cast<double>(number) + 0.5) / samples - 0.5;

@@ -119,7 +119,8 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
   for (const std::string& text :
        {valid_case + record, valid_case + wall + ice + "x_min = 50.0\n", valid_case + noise, valid_case + splitting,
         valid_case + bed, valid_case + columns, valid_case + columns + growth, valid_case_on_dem, of_surface, resting,
-        valid_case_on_dem + ice + "outline = \"release.geojson\"\n"}) {
+        valid_case_on_dem + ice + "outline = \"release.geojson\"\n",
+        valid_case_on_dem + bed + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = without_marks(resolved_toml(found, "inputs"));
     for (const auto& table : tables()) {

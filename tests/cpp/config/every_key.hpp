@@ -117,7 +117,7 @@ inline const std::string release_on_dem = one_key_per_line(R"(
 [contact_pair.seam] bodies = ["block", "upper"] | contact = "frictional" | friction_angle = 12.5
 )");
 
-// The same release between two surfaces, with growing band columns, and the substrate from a raster.
+// The same release between two surfaces, with growing band columns, the substrate from a raster, and a bed in polygons.
 inline std::string release_of_a_surface() {
   using namespace case_messages;
   std::string text =
@@ -126,7 +126,11 @@ inline std::string release_of_a_surface() {
                {"[heat.boundary]\ny_min = { temperature = -7.0 }\ny_max = { flux = -2.0 }\n",
                 "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"}},
               release_on_dem);
-  text.resize(text.find("[contact]"));  // refused with columns
+  text.resize(text.find("[contact]"));  // refused with columns and with a bed
+  text += one_key_per_line(R"(
+[bed] law = "strength" | depth = { attribute = "depth" } | outline = "inputs/release.shp" | polygons = ["valley"] |
+  name_attribute = "kind" | strength = 2000.0 | depth_per_slip = 0.125 | material = "rock"
+)");
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
   return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");
 }

@@ -227,5 +227,77 @@ TEST(BedOfMaps, InvalidDepthsAreRefused) {
   expect_message(error_of_site(slide_over_bed("{ raster = \"depth.tif\" }")));
 }
 
+// ---- beds in polygons
+
+// A slide over a bed in the polygons of bed.geojson, whose depth is a number or their attribute `depth`.
+config::Case slide_over_polygons(const std::vector<JsonFeature>& polygons, const std::string& more = "",
+                                 const std::string& depth = "{ attribute = \"depth\" }") {
+  geojson("bed.geojson", polygons);
+  return slide_over_bed(depth + "\noutline = \"bed.geojson\"\n" + more);
+}
+
+double bed_volume_of(const config::Case& parameters) {
+  const sim::Simulation<3> simulation(parameters, load_site(parameters).site);
+  return simulation.bed()->sums().initial / simulation.bed()->material().density;
+}
+
+// A triangle, a rectangle, and one that the domain cuts off; their sides are not those of cells.
+TEST(BedOfMaps, VolumeOfPolygonsIsExactForAnyCell) {
+  config::Case made = slide_over_polygons(
+      {{R"("depth":1.25)",
+        polygon_json({{west + 47.3, south + 21.7}, {west + 130.3, south + 21.7}, {west + 47.3, south + 62.7}})},
+       {R"("depth":0.75)", box_at(151.2, 20.0, 203.4, 61.7)},
+       {R"("depth":2)", box_at(251.3, 68.0, 400.0, 150.0)}});
+  const double expected = 1.25 * 0.5 * 83.0 * 41.0 + 0.75 * 52.2 * 41.7 + 2.0 * (290.0 - 251.3) * (90.0 - 68.0);
+  for (const double cell : {4.0, 5.0, 10.0}) {
+    made.grid.cell = cell;
+    EXPECT_NEAR(bed_volume_of(made) / expected, 1.0, 1e-11) << cell;
+  }
+}
+
+TEST(BedOfMaps, PolygonsWithOneDepthCountOnce) {
+  const std::vector<JsonFeature> overlapping{{R"("name":"a")", box_at(50.0, 20.0, 120.0, 80.0)},
+                                             {R"("name":"b")", box_at(100.0, 20.0, 150.0, 80.0)}};
+  EXPECT_NEAR(bed_volume_of(slide_over_polygons(overlapping, "", "1.5")), 1.5 * 100.0 * 60.0, 1e-8);
+  EXPECT_NEAR(bed_volume_of(slide_over_polygons(overlapping, "polygons = [\"b\"]\n", "1.5")), 1.5 * 50.0 * 60.0, 1e-8);
+}
+
+// The points of the raster are those at which the bed of a cell is sampled; borders of the polygons are half-way
+// between two of them.
+TEST(BedOfMaps, PolygonsGiveTheSameBitsAsARasterOfTheirDepths) {
+  const auto depth = [](double x, double y) {
+    const double along = x - west, across = y - south;
+    return across < 35.0 || across > 70.0 ? 0.0 : along > 60.0 && along < 95.0 ? 1.5 : along > 95.0 ? 0.5 : 0.0;
+  };
+  const auto change_dem = [](config::Case made) {
+    made.terrain.file = geotiff("fine.tif", raster_of([](double x, double) { return 600.0 - 0.2 * (x - west); },
+                                                      west + 0.625, south + 0.625, 1.25, 240, 80));
+    return made;
+  };
+  geotiff("depth.tif", raster_of(depth, west + 0.625, south + 0.625, 1.25, 240, 80));
+  const auto of_raster = row_after(change_dem(slide_over_bed("{ raster = \"depth.tif\" }")));
+  const auto of_polygons = row_after(change_dem(slide_over_polygons(
+      {{R"("depth":1.5)", box_at(60.0, 35.0, 95.0, 70.0)}, {R"("depth":0.5)", box_at(95.0, 35.0, 400.0, 70.0)}})));
+  ASSERT_EQ(of_raster.size(), of_polygons.size());
+  for (std::size_t k = 0; k < of_raster.size(); ++k) {
+    EXPECT_TRUE(of_raster[k].second == of_polygons[k].second || std::isnan(of_raster[k].second)) << of_raster[k].first;
+  }
+  const double initial = value_of(of_polygons, "bed_mass_kg") + value_of(of_polygons, "entrained_mass_kg");
+  EXPECT_GT(value_of(of_polygons, "entrained_mass_kg"), 1e4);
+  EXPECT_LT(std::abs(value_of(of_polygons, "bed_residual_kg")), 1e-12 * initial);
+}
+
+TEST(BedOfMaps, InvalidPolygonsAreRefused) {
+  const std::string here = box_at(50.0, 20.0, 120.0, 80.0);
+  expect_message(error_of_site(slide_over_polygons({{R"("name":"fan", "depth":-0.5)", here}})));
+  expect_message(error_of_site(slide_over_polygons({{R"("name":"fan", "depth":6)", here}})));
+  expect_message(error_of_site(slide_over_polygons({{R"("name":"fan")", here}})));
+  expect_message(error_of_site(slide_over_polygons({{R"("depth":"deep")", here}})));
+  expect_message(error_of_site(slide_over_polygons({{R"("depth":1)", box_at(300.0, 0.0, 400.0, 50.0)}})));
+  expect_message(
+      error_of_site(slide_over_polygons({{R"("depth":1)", here}, {R"("depth":2)", box_at(110.0, 20.0, 150.0, 80.0)}})));
+  expect_message(error_of_site(slide_over_polygons({{R"("name":"fan")", here}}, "polygons = [\"fn\"]\n", "1.0")));
+}
+
 }  // namespace
 }  // namespace thawslide::gis
