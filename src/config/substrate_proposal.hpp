@@ -12,11 +12,12 @@ namespace thawslide::config {
 struct ProposedSubstrate {
   const char *name, *option;
   double coefficient, low, high;
+  bool can_be_entrained;  // the case then contains an erodible bed as comments
 };
 inline constexpr std::array<ProposedSubstrate, 3> proposed_substrates{
-    {{"glacier", "--glacier", 0.1, 0.05, 0.15},
-     {"snow", "--snow", 0.15, 0.05, 0.25},
-     {"valley_floor", "--valley-floor", 0.2, 0.1, 0.3}}};
+    {{"glacier", "--glacier", 0.1, 0.05, 0.15, false},
+     {"snow", "--snow", 0.15, 0.05, 0.25, false},
+     {"valley_floor", "--valley-floor", 0.2, 0.1, 0.3, true}}};
 
 // Files of polygons, as named in the case, by the names of proposed substrates.
 using Outlines = std::map<std::string, std::string>;

@@ -1,4 +1,4 @@
-"""Erodible beds in polygons: their volume on a tilted plane, errors, runs and copies of their file."""
+"""Erodible beds in polygons: their volume on a tilted plane, errors, runs, copies of their file, and beds of `new`."""
 
 import json
 import tomllib
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import Program, Slope, history, sets
 from rasterio.warp import transform
-from terrain_files import CELL, SLOPE_CRS, SOUTH, WEST, toml, write_raster
+from terrain_files import CELL, DEPTH, SLOPE_CRS, SOUTH, WEST, WIDTH, toml, write_raster, write_rectangle
 
 Corner = tuple[float, float]  # from the corner of the slope [m]
 
@@ -122,3 +122,15 @@ def test_a_run_entrains_from_polygons_with_an_exact_mass_budget(thawslide: Progr
     resumed = history(parts)
     for name in ("time_s", "entrained_mass_kg", "bed_mass_kg", "mean_velocity_m_s"):
         assert resumed[name][-1] == rows[name][-1], name
+
+
+def test_new_writes_a_bed_in_the_valley_floor_as_comments(thawslide: Program, slope: Slope) -> None:
+    slope.ok("--valley-floor", write_rectangle(slope.folder / "ground.geojson", WEST + 400.0, SOUTH + 100.0))
+    file = slope.case / "case.toml"
+    assert "bed" not in tomllib.loads(file.read_text())
+    before, bed = file.read_text().split("# [bed]\n")
+    table, after = bed.split("\n\n", 1)
+    table = "\n".join(line.removeprefix("# ") for line in table.splitlines())
+    file.write_text(f"{before}[bed]\n{table}\n\n{after}")
+    assert volume_of(thawslide, slope.case) == pytest.approx(1.0 * WIDTH * DEPTH, rel=1e-11)
+    assert "warning: bed" not in thawslide("check", slope.case).stderr
