@@ -22,19 +22,19 @@ struct BasalSegment {
   Vector<double, Dim> normal;    // unit vector into the ground
   // Velocity of the sliding mass around the segment, along the ground, at the column's last step [m/s].
   Vector<double, Dim> velocity = Vector<double, Dim>::Zero();
-  Sides sides;                // its edges along the ground [m]; one in 2D
-  double area = 0;            // [m2]; [m2 per metre of width] in 2D
-  double area_of_column = 0;  // reference area of the column's quantities per area [m2]
-  double slip = 0;            // [m]
-  double speed = 0;           // of slip [m/s]
-  double load = 0;            // normal pressure N, averaged over time [Pa]
-  double depth = 0;           // flow depth above, along the normal, from the load on the segment, averaged [m]
-  double loaded_for = 0;      // averaging time of the depth so far [s]
-  double heat = 0;            // friction heat on the whole area since the column's last step [J]
-  bool touched = false;       // has carried load before
-  physics::BandColumn column;
+  Sides sides;                 // its edges along the ground [m]; one in 2D
+  double area = 0;             // [m2]; [m2 per metre of width] in 2D
+  double area_of_column = 0;   // reference area of the column's quantities per area [m2]
+  double slip = 0;             // [m]
+  double speed = 0;            // of slip [m/s]
+  double load = 0;             // normal pressure N, averaged over time [Pa]
+  double depth = 0;            // flow depth above, along the normal, from the load on the segment, averaged [m]
+  double loaded_for = 0;       // averaging time of the depth so far [s]
+  double heat = 0;             // friction heat on the whole area since the column's last step [J]
+  bool touched = false;        // has carried load before
   physics::BandMeans means{};  // of the column at its last step, under the load at that time
   double liquid = 0;           // liquid water in the column at its last step, per area [m]
+  physics::BandColumn column;  // last: between its steps only its first numbers are read
 };
 
 template <int Dim>

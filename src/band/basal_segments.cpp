@@ -80,23 +80,32 @@ typename BasalSegments<Dim>::PatchMotion BasalSegments<Dim>::motion_about(const 
                                                                           const NormalAtNode& node_normal,
                                                                           const mpm::Nodes<Dim>& nodes) const {
   constexpr std::array<double, 3> of_layer{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};  // of a cubic B-spline
-  PatchMotion motion;
+  PatchMotion motion{};
   const auto at = Patch::nodes_at(grid, b);
   for (std::size_t place = 0; place < at.size(); ++place) {
-    for (std::size_t layer = 0; at[place].block != KeyIndex::absent && layer < of_layer.size(); ++layer) {
-      const auto adjacent =
-          mpm::Tile<Dim>::adjacent(static_cast<int>(at[place].node), Dim - 1, static_cast<int>(layer) - 1);
-      const std::int32_t block = grid.blocks_about_block(static_cast<std::size_t>(at[place].block))[adjacent.direction];
+    if (at[place].block == KeyIndex::absent) {
+      continue;
+    }
+    const auto on_ground = static_cast<std::size_t>(at[place].block);
+    ColumnMotion& column = motion[place];
+    column.normal = node_normal(on_ground, at[place].node);
+    for (std::size_t layer = 0; layer < of_layer.size(); ++layer) {
+      const int above = static_cast<int>(layer) - 1;
+      const auto adjacent = mpm::Tile<Dim>::adjacent(static_cast<int>(at[place].node), Dim - 1, above);
+      const std::int32_t block = grid.blocks_about_block(on_ground)[adjacent.direction];
       if (block == KeyIndex::absent) {
         continue;
       }
       const auto in_block = static_cast<std::size_t>(block), node = static_cast<std::size_t>(adjacent.local);
-      const double mass = nodes.momentum(in_block, node)[mpm::MomentumLayout<Dim>::mass];
+      const double mass = of_layer[layer] * nodes.momentum(in_block, node)[mpm::MomentumLayout<Dim>::mass];
       if (mass > 0.0) {
-        motion[layer][place] = {
-            of_layer[layer] * mass,
-            mpm::vector_at<Dim>(nodes.motion(in_block, node), mpm::MotionLayout<Dim>::middle_velocity),
-            node_normal(in_block, node)};
+        const Vector<double, Dim> momentum =
+            mass * mpm::vector_at<Dim>(nodes.motion(in_block, node), mpm::MotionLayout<Dim>::middle_velocity);
+        column.mass += mass;
+        column.momentum += momentum;
+        column.mass_height += above * mass;
+        column.mass_squares += above * above * mass;
+        column.momentum_height += above * momentum;
       }
     }
   }
@@ -105,50 +114,58 @@ typename BasalSegments<Dim>::PatchMotion BasalSegments<Dim>::motion_about(const 
 
 // Velocity of the sliding mass at a segment, and its gradient along the ground: a linear fit to the nodes around it,
 // weighted by mass. Velocities are rotated from the ground normal at the node to that of the segment; a bend of the
-// ground therefore causes no spurious stretching.
+// ground therefore causes no spurious stretching. Nodes lie on the plane of the segment, or one cell above or below it.
 template <int Dim>
 typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(double cell, const Stencil& stencil,
                                                                    const PatchMotion& motion,
                                                                    const Segment& segment) const {
+  using Horizontal = Vector<double, Dim - 1>;
   // added to the spread of positions, in cells squared, to keep the fit regular
   constexpr double smallest_spread = 1e-3;
-  const auto along_ground = [&](const Vector<double, Dim>& v) -> Vector<double, Dim> {
-    return v - v.dot(segment.normal) * segment.normal;
-  };
-  double mass = 0;
-  Vector<double, Dim> positions = Vector<double, Dim>::Zero(), velocities = Vector<double, Dim>::Zero();  // times mass
-  Matrix<double, Dim> squares = Matrix<double, Dim>::Zero(), together = Matrix<double, Dim>::Zero();
-  stencil.for_each_with_offset([&](std::size_t place, double weight, const Vector<double, Dim>& from_segment) {
-    for (std::size_t layer = 0; layer < motion.size(); ++layer) {
-      const NodeMotion& node = motion[layer][place];
-      const double of_node = weight * node.mass;
-      if (!(of_node > 0.0)) {
-        continue;
-      }
-      const Vector<double, Dim> velocity = along_ground(
-          node.normal != nullptr ? turned<Dim>(node.velocity, *node.normal, segment.normal) : node.velocity);
-      Vector<double, Dim> in_space = from_segment;
-      in_space[Dim - 1] =
-          (static_cast<double>(layer) - 1.0) * cell -
-          segment.normal.template head<Dim - 1>().dot(from_segment.template head<Dim - 1>()) / segment.normal[Dim - 1];
-      const Vector<double, Dim> position = along_ground(in_space);
-      const Vector<double, Dim> weighted = of_node * position;
-      mass += of_node;
-      positions += weighted;
-      velocities += of_node * velocity;
-      squares += position * weighted.transpose();
-      together += velocity * weighted.transpose();
+  // Sums over nodes: mass m, height h in cells, horizontal distance x, momentum p.
+  double m = 0, mh = 0, mhh = 0;
+  Horizontal mx = Horizontal::Zero(), mxh = Horizontal::Zero();
+  Matrix<double, Dim - 1> mxx = Matrix<double, Dim - 1>::Zero();
+  Vector<double, Dim> p = Vector<double, Dim>::Zero(), ph = Vector<double, Dim>::Zero();
+  Eigen::Matrix<double, Dim, Dim - 1> px = Eigen::Matrix<double, Dim, Dim - 1>::Zero();
+  stencil.for_each_with_offset([&](std::size_t place, double weight, const Horizontal& x) {
+    const ColumnMotion& column = motion[place];
+    if (!(column.mass > 0.0)) {
+      return;
     }
+    const auto along_segment = [&](const Vector<double, Dim>& v) -> Vector<double, Dim> {
+      return weight * (column.normal != nullptr ? turned<Dim>(v, *column.normal, segment.normal) : v);
+    };
+    const Vector<double, Dim> momentum = along_segment(column.momentum);
+    const Horizontal weighted = weight * column.mass * x;
+    m += weight * column.mass;
+    mh += weight * column.mass_height;
+    mhh += weight * column.mass_squares;
+    mx += weighted;
+    mxh += weight * column.mass_height * x;
+    mxx += weighted * x.transpose();
+    p += momentum;
+    ph += along_segment(column.momentum_height);
+    px += momentum * x.transpose();
   });
   Nearby result;
-  if (!(mass > 0.0)) {
+  if (!(m > 0.0)) {
     return result;
   }
-  const Vector<double, Dim> mean_position = positions / mass, mean_velocity = velocities / mass;
+  const Vector<double, Dim>& normal = segment.normal;
+  const Matrix<double, Dim> along_ground = Matrix<double, Dim>::Identity() - normal * normal.transpose();
+  const Eigen::Matrix<double, Dim, Dim - 1> to_plane = sides_on<Dim>(normal, Horizontal::Ones());  // of a distance x
+  const Vector<double, Dim> up = cell * along_ground.col(Dim - 1);  // of a height of one cell
+  const Vector<double, Dim> positions = to_plane * mx + mh * up, across = to_plane * mxh;
+  const Vector<double, Dim> velocities = along_ground * p;
+  const Matrix<double, Dim> squares = to_plane * mxx * to_plane.transpose() + across * up.transpose() +
+                                      up * across.transpose() + mhh * up * up.transpose();
+  const Matrix<double, Dim> together = along_ground * (px * to_plane.transpose() + ph * up.transpose());
+  const Vector<double, Dim> mean_position = positions / m;
   const Matrix<double, Dim> spread = squares - positions * mean_position.transpose() +
-                                     mass * smallest_spread * cell * cell * Matrix<double, Dim>::Identity();
+                                     m * smallest_spread * cell * cell * Matrix<double, Dim>::Identity();
   result.gradient = (together - velocities * mean_position.transpose()) * spread.inverse();
-  result.velocity = mean_velocity - result.gradient * mean_position;
+  result.velocity = velocities / m - result.gradient * mean_position;
   result.is_present = true;
   return result;
 }

@@ -150,13 +150,14 @@ class BasalSegments {
     Vector<double, Dim> velocity = Vector<double, Dim>::Zero();  // along the ground [m/s]
     bool is_present = false;
   };
-  // Motion of the nodes of a patch, by layer around the ground and place.
-  struct NodeMotion {
-    double mass = 0;  // times the weight of its layer [kg]
-    Vector<double, Dim> velocity;
+  // Sums over the nodes below, on and above the ground at one place of a patch, with the weights of the layers: mass
+  // [kg] and momentum [N s], and both times the height in cells.
+  struct ColumnMotion {
+    double mass = 0, mass_height = 0, mass_squares = 0;  // mass_squares: with the height squared
+    Vector<double, Dim> momentum = Vector<double, Dim>::Zero(), momentum_height = Vector<double, Dim>::Zero();
     const Vector<double, Dim>* normal = nullptr;
   };
-  using PatchMotion = std::array<std::array<NodeMotion, Patch::nodes>, 3>;
+  using PatchMotion = std::array<ColumnMotion, Patch::nodes>;
   [[nodiscard]] PatchMotion motion_about(const mpm::SparseGrid<Dim>& grid, std::int32_t b,
                                          const NormalAtNode& node_normal, const mpm::Nodes<Dim>& nodes) const;
   [[nodiscard]] Nearby slide_near(double cell, const Stencil& stencil, const PatchMotion& motion,

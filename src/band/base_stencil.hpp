@@ -113,7 +113,7 @@ class BaseStencil {
   // from_segment: horizontal vector from the segment to the node [m].
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_with_offset(const Visit& visit) const {
-    Vector<double, Dim> from_segment = Vector<double, Dim>::Zero();
+    Vector<double, Dim - 1> from_segment;
     for (int y = 0; y < (Dim == 3 ? width : 1); ++y) {
       double of_row = 1.0;
       if constexpr (Dim == 3) {
@@ -129,7 +129,7 @@ class BaseStencil {
   }
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
-    for_each_with_offset([&](std::size_t place, double weight, const Vector<double, Dim>& /*from_segment*/)
+    for_each_with_offset([&](std::size_t place, double weight, const Vector<double, Dim - 1>& /*from_segment*/)
                              THAWSLIDE_INLINE_LAMBDA { visit(place, weight); });
   }
 

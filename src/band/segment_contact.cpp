@@ -171,28 +171,25 @@ typename BasalSegments<Dim>::InContact BasalSegments<Dim>::in_contact(const mpm:
 template <int Dim>
 void BasalSegments<Dim>::gather_from_nodes(const mpm::SparseGrid<Dim>& grid, std::size_t b, double dt,
                                            const mpm::Nodes<Dim>& nodes) {
-  struct AtNode {
-    InContact contact;
-    double heat = 0, pressure = 0;  // per area of the segments in reach [W/m2], [Pa]
-  };
+  // of a node: contact, and heat [W/m2] and load [Pa] per area of the segments in reach; as many as fill a register
+  enum : std::size_t { normal_force, area, slip, heat, pressure, count = 8 };
+  using AtNode = std::array<double, count>;
   std::array<AtNode, Patch::nodes> patch{};
   Patch::for_each_node(grid, b, [&](std::size_t block, std::size_t node, std::size_t place) {
     if (const double seen = nodes.base_state(block, node)[BaseState::area]; seen > 0.0) {
       const InContact& contact = contact_[block * Patch::nodes_of_layer + node];
-      patch[place] = {contact, contact.friction_heat / seen, contact.normal_force / seen};
+      patch[place] = {contact.normal_force, contact.area, contact.slip, contact.friction_heat / seen,
+                      contact.normal_force / seen};
     }
   });
   for_each_segment(b, [&](std::size_t p) {
-    AtNode around;  // weighted sums over nodes
+    AtNode around{};
     stencils_[p].for_each([&](std::size_t place, double weight) THAWSLIDE_INLINE_LAMBDA {
-      const AtNode& node = patch[place];
-      around.contact.normal_force += weight * node.contact.normal_force;
-      around.contact.area += weight * node.contact.area;
-      around.contact.slip += weight * node.contact.slip;
-      around.heat += weight * node.heat;
-      around.pressure += weight * node.pressure;
+      for (std::size_t c = 0; c < count; ++c) {
+        around[c] += weight * patch[place][c];
+      }
     });
-    take_contact(around.contact, around.heat, around.pressure, dt, segments_[p]);
+    take_contact({around[area], around[normal_force], around[slip]}, around[heat], around[pressure], dt, segments_[p]);
   });
 }
 

@@ -51,6 +51,7 @@ struct ColumnModel {
 };
 
 struct BandColumn {
+  double pressure[ColumnCells::slide];   // P [Pa]
   double thickness;                      // of the band, e [m]
   double cell_growth;                    // r: height ratio of a cell above the band to the one below it
   double heat[ColumnCells::all];         // H [J/m2]
@@ -58,7 +59,6 @@ struct BandColumn {
   double water[ColumnCells::slide];      // w [kg/m2]
   double thawing[ColumnCells::slide];    // S_s P_thaw - m_v N_thaw; for frozen cells, the value on thawing now
   double surplus[ColumnCells::slide];    // theta
-  double pressure[ColumnCells::slide];   // P [Pa]
 };
 
 // Input of a column's time step.
