@@ -52,18 +52,28 @@ class ConvexPolygon {
 
   // Part over the rectangle between two corners, including its sides.
   [[nodiscard]] ConvexPolygon over(const Vector<double, 2>& from, const Vector<double, 2>& to) const {
-    ConvexPolygon first, second, outside;
-    split(0, from[0], outside, first);
-    first.split(0, to[0], second, outside);
-    second.split(1, from[1], outside, first);
-    first.split(1, to[1], second, outside);
-    return second;
+    ConvexPolygon part = *this, kept, outside;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (part.reaches(axis, -1.0, from[axis])) {
+        part.split(axis, from[axis], outside, kept);
+        part = kept;
+      }
+      if (part.reaches(axis, 1.0, to[axis])) {
+        part.split(axis, to[axis], kept, outside);
+        part = kept;
+      }
+    }
+    return part;
   }
 
-  // Parts on both sides of the plane where the coordinate along `axis` is `at`; both contain corners in the plane.
+  // Parts on both sides of the plane where the coordinate along `axis` is `at`. A polygon on one side is not cut.
   void split(int axis, double at, ConvexPolygon& below, ConvexPolygon& above) const {
     below.clear();
     above.clear();
+    if (!reaches(axis, -1.0, at) || !reaches(axis, 1.0, at)) {  // on one side
+      (reaches(axis, -1.0, at) ? below : above) = *this;
+      return;
+    }
     for (int k = 0; k < size_; ++k) {
       const Vector<double, 3>& here = (*this)[k];
       const Vector<double, 3>& next = (*this)[k + 1 == size_ ? 0 : k + 1];
@@ -85,6 +95,12 @@ class ConvexPolygon {
   }
 
  private:
+  // True if a corner lies beyond the plane at a coordinate, in the direction of a sign.
+  [[nodiscard]] bool reaches(int axis, double sign, double at) const {
+    return std::any_of(corner_.begin(), corner_.begin() + size_,
+                       [&](const Vector<double, 3>& corner) { return sign * (corner[axis] - at) > 0.0; });
+  }
+
   int size_ = 0;
   std::array<Vector<double, 3>, capacity> corner_;
 };
