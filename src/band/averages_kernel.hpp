@@ -42,7 +42,7 @@ struct AddSeepingWater {
   using Adds = mpm::RecordList<mpm::SeepingWater>;
   using Totals = mpm::NoTotals;
 
-  const BandPhysics& model;
+  BandPhysics model;
   HydraulicConductivity hydraulic;
 
   template <class Particles, class At, class Seen, class Scatter>

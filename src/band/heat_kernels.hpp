@@ -22,9 +22,9 @@ struct HeatFlows {
   using Adds = mpm::RecordList<mpm::HeatRates>;
   using Totals = mpm::NoTotals;
 
-  const BandPhysics& model;
+  BandPhysics model;
   HydraulicConductivity hydraulic;
-  const Law& law;
+  Law law;
   double dt, inverse_cell;
   // false in the first step, when prescribed temperatures jump and nodes are ahead of particles, and in the published
   // formulation
@@ -118,7 +118,7 @@ struct SecantCapacity {
   using Adds = mpm::RecordList<mpm::HeatRates>;
   using Totals = mpm::NoTotals;
 
-  const Law& law;
+  Law law;
   double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -178,8 +178,8 @@ struct UpdateHeat {
   using Adds = mpm::RecordList<>;
   using Totals = mpm::NoTotals;
 
-  const BandPhysics& model;
-  const Law& law;
+  BandPhysics model;
+  Law law;
   double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -209,8 +209,8 @@ struct UpdateHeatApparentCapacity {
   using Adds = mpm::RecordList<>;
   using Totals = double;
 
-  const BandPhysics& model;
-  const Law& law;
+  BandPhysics model;
+  Law law;
   double dt;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -241,7 +241,7 @@ struct UpdateHeatMass {
   using Adds = mpm::RecordList<>;
   using Totals = double;
 
-  const Law& law;
+  Law law;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,

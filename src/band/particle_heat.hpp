@@ -33,7 +33,7 @@ struct CurrentMasses {
 
 template <class Content, class Masses>
 struct ParticleHeat {
-  const Content& content;
+  Content content;
 
   // H [J/m3] at the particle's temperature.
   template <class Particles, class At>

@@ -75,7 +75,7 @@ struct SeepageFlows {
   using Adds = mpm::RecordList<mpm::Seepage>;
   using Totals = mpm::NoTotals;
 
-  const BandPhysics& model;
+  BandPhysics model;
   HydraulicConductivity hydraulic_conductivity;
   double dt, inverse_cell;
 

@@ -96,21 +96,23 @@ class BandStages {
   }
   template <class Content>
   void conduct_heat_by(const Content& content, double dt) {
-    passes_.run(passes_.linear(), HeatFlows<Dim, Content>{content, passes_.model.band, hydraulic(), dt,
-                                                          1.0 / passes_.model.cell, !passes_.model.starts});
+    using Law = band::ParticleHeat<Content, band::InitialMasses>;
+    const Law law{content};
+    passes_.run(passes_.linear(), band::HeatFlows<Dim, Law>{passes_.model.band, hydraulic(), law, dt,
+                                                            1.0 / passes_.model.cell, !passes_.model.starts});
     passes_.template sum<mpm::HeatRates, void>(AllTiles{});
     solve_rates(nullptr, dt);
     passes_.marks.mark_tiles(passes_.cells.tables(),
                              MayChange<Dim, Content>{passes_.views(), passes_.particles.view(), content, dt});
     passes_.marks.mark_blocks(passes_.cells.tables());
-    passes_.run(passes_.linear(passes_.marks.tiles()), SecantCapacity<Dim, Content>{content, dt});
+    passes_.run(passes_.linear(passes_.marks.tiles()), band::SecantCapacity<Dim, Law>{law, dt});
     passes_.backend.for_each(secant_rates_.size(),
                              SumPatches<mpm::HeatRates, void, AllTiles, Dim>{
                                  passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
     passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
     passes_.marks.mark_tiles(passes_.cells.tables(), HasHeat<Dim>{passes_.template of<mpm::UnreachedHeat>().data()});
     passes_.run(passes_.momentum(passes_.marks.tiles()), band::RedistributeUnreachedHeat<Dim>{dt});
-    passes_.run(passes_.linear(), UpdateHeat<Dim, Content>{content, passes_.model.band, dt});
+    passes_.run(passes_.linear(), band::UpdateHeat<Dim, Law>{passes_.model.band, law, dt});
   }
   const band::NodalHeat* solve_rates(const std::uint8_t* changing_blocks, double dt) {
     const std::size_t blocks = passes_.cells.tables().blocks;
@@ -145,7 +147,7 @@ class BandStages {
         !find_seepage(SeepingInState<Dim>{passes_.particles.view(), passes_.model.band, hydraulic()})) {
       return;
     }
-    passes_.run(passes_.linear(passes_.marks.tiles()), AddSeepingWater<Dim>{passes_.model.band, hydraulic()});
+    passes_.run(passes_.linear(passes_.marks.tiles()), band::AddSeepingWater<Dim>{passes_.model.band, hydraulic()});
     passes_.template sum<mpm::SeepingWater, void>(passes_.marks.tiles());
     passes_.backend.for_each(passes_.cells.tables().blocks * Passes::block_nodes,
                              SetSeepingPressure<Dim>{passes_.views(), passes_.template of<mpm::SeepingWater>().data(),
@@ -154,7 +156,7 @@ class BandStages {
 
   void seep(double dt) {
     passes_.run(passes_.linear(passes_.marks.tiles()),
-                SeepageFlows<Dim>{passes_.model.band, hydraulic(), dt, 1.0 / passes_.model.cell});
+                band::SeepageFlows<Dim>{passes_.model.band, hydraulic(), dt, 1.0 / passes_.model.cell});
     passes_.template sum<mpm::Seepage, void>(passes_.marks.tiles());
     const std::size_t blocks = passes_.cells.tables().blocks;
     const double* absorbed = block_pass<Dim>(

@@ -1,5 +1,4 @@
-// Device kernels of heat conduction: those of band/heat_kernels.hpp with their parameters held by value, and the
-// functions of band/nodal_heat.hpp.
+// Device kernels of heat conduction other than those of band/heat_kernels.hpp, by the functions of band/nodal_heat.hpp.
 #pragma once
 
 #include "band/heat_kernels.hpp"
@@ -53,70 +52,6 @@ struct RescaleBand {
     const Law law{content};
     const double scaling = scales_all || particles.in_band(p) != 0 ? in_band.of(particles, p) : 1.0;
     band::rescale_particle(physics, law, has_water, scaling, p, particles, added_heat);
-  }
-};
-
-template <int Dim, class Content>
-struct HeatFlows {
-  using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::HeatFlows<Dim, Law>;
-  using Reads = typename Kernel::Reads;
-  using Adds = typename Kernel::Adds;
-  using Totals = typename Kernel::Totals;
-
-  Content content;
-  band::BandPhysics physics;
-  band::HydraulicConductivity hydraulic;
-  double dt, inverse_cell;
-  bool subgrid;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Totals& totals) const {
-    const Law law{content};
-    const Kernel kernel{physics, hydraulic, law, dt, inverse_cell, subgrid};
-    kernel(particles, at, seen, added, totals);
-  }
-};
-
-template <int Dim, class Content>
-struct SecantCapacity {
-  using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::SecantCapacity<Dim, Law>;
-  using Reads = typename Kernel::Reads;
-  using Adds = typename Kernel::Adds;
-  using Totals = typename Kernel::Totals;
-
-  Content content;
-  double dt;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Totals& totals) const {
-    const Law law{content};
-    const Kernel kernel{law, dt};
-    kernel(particles, at, seen, added, totals);
-  }
-};
-
-template <int Dim, class Content>
-struct UpdateHeat {
-  using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::UpdateHeat<Dim, Law>;
-  using Reads = typename Kernel::Reads;
-  using Adds = typename Kernel::Adds;
-  using Totals = typename Kernel::Totals;
-
-  Content content;
-  band::BandPhysics physics;
-  double dt;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Totals& totals) const {
-    const Law law{content};
-    const Kernel kernel{physics, law, dt};
-    kernel(particles, at, seen, added, totals);
   }
 };
 

@@ -1,5 +1,5 @@
-// Device kernels of pore pressure: those of band/pressure_kernels.hpp and band/averages_kernel.hpp with their
-// parameters held by value, and the functions of band/nodal_seepage.hpp.
+// Device kernels of pore pressure other than those of band/pressure_kernels.hpp and band/averages_kernel.hpp, by the
+// functions of band/nodal_seepage.hpp.
 #pragma once
 
 #include "band/averages_kernel.hpp"
@@ -74,33 +74,6 @@ struct KeepVented {
   double* vented;
 
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_absorbed(phases, *absorbed); }
-};
-
-// Kernels created from parameters held by value.
-template <int Dim>
-struct AddSeepingWater {
-  using Kernel = band::AddSeepingWater<Dim>;
-  using Reads = typename Kernel::Reads;
-  using Adds = typename Kernel::Adds;
-  using Totals = typename Kernel::Totals;
-
-  band::BandPhysics physics;
-  band::HydraulicConductivity hydraulic;
-
-  [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic}; }
-};
-template <int Dim>
-struct SeepageFlows {
-  using Kernel = band::SeepageFlows<Dim>;
-  using Reads = typename Kernel::Reads;
-  using Adds = typename Kernel::Adds;
-  using Totals = typename Kernel::Totals;
-
-  band::BandPhysics physics;
-  band::HydraulicConductivity hydraulic;
-  double dt, inverse_cell;
-
-  [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic, dt, inverse_cell}; }
 };
 
 // Normal load of a particle, from columns that hold the load per depth in place of the cosine.

@@ -21,14 +21,11 @@ struct SumsOf : mpm::ByName<mpm::Named<Kernels, typename Kernels::Totals>...> {
   }
 };
 
-// Kernel of a tile. A kernel passed as its parameters is created by kernel(); a kernel that depends on the tile is
-// created by in_tile(tile).
+// Kernel of a tile; kernels that depend on the tile provide in_tile(tile).
 template <class Kernel>
 THAWSLIDE_HD decltype(auto) kernel_of(const Kernel& kernel, [[maybe_unused]] std::size_t tile) {
   if constexpr (requires { kernel.in_tile(tile); }) {
     return kernel.in_tile(tile);
-  } else if constexpr (requires { kernel.kernel(); }) {
-    return kernel.kernel();
   } else {
     return (kernel);
   }

@@ -107,7 +107,7 @@ struct Results {
 template <int Dim>
 using Shape = mpm::Ugimp;
 
-// Kernels that keep no references.
+// Kernels whose only template parameter is the dimension.
 template <int Dim, template <int> class Kernel>
 __global__ void pass(TileOnDevice<Dim> tile, Results<Dim, Kernel<Dim>> to, Kernel<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
