@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "base/linear.hpp"
@@ -55,6 +56,10 @@ THAWSLIDE_HD inline std::uint64_t neighbour_column(std::uint64_t key, std::size_
   return side % 2 == 0 ? key - step : key + step;
 }
 
+// Function of a horizontal position [m].
+template <int Dim>
+using OfPosition = std::function<double(const Vector<double, Dim - 1>&)>;
+
 template <int Dim>
 Vector<double, Dim - 1> middle_of_column(std::uint64_t key, double cell) {
   Vector<double, Dim - 1> middle;
@@ -94,6 +99,21 @@ struct ColumnMass {
   THAWSLIDE_HD ColumnMass& operator+=(const ColumnMass& part) {
     volume += part.volume;
     top = max(top, part.top);
+    return *this;
+  }
+};
+
+// Contribution of a set of particles to a column.
+template <int Dim>
+struct ColumnPart {
+  ColumnMass column_mass;
+  Extent<Dim> extent;
+  double mass = 0;
+
+  THAWSLIDE_HD ColumnPart& operator+=(const ColumnPart& part) {
+    column_mass += part.column_mass;
+    extent += part.extent;
+    mass += part.mass;
     return *this;
   }
 };

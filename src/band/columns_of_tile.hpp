@@ -90,6 +90,14 @@ template <int Dim>
 struct NumbersOfTile {
   std::array<double, columns_per_tile<Dim>> numbers;
 
+  // all: numbers of all columns. column: index of a column, by place.
+  [[nodiscard]] THAWSLIDE_HD static NumbersOfTile of(const double* all, const std::int32_t* column) {
+    NumbersOfTile here;
+    for (std::size_t index = 0; index < columns_per_tile<Dim>; ++index) {
+      here.numbers[index] = all[column[index]];
+    }
+    return here;
+  }
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value at(const Value& index) const {
     return look_up(numbers.data(), index);
@@ -100,6 +108,9 @@ struct NumbersOfColumns {
   const double* numbers;
   const std::int32_t* column;  // by place
 
+  [[nodiscard]] THAWSLIDE_HD static NumbersOfColumns of(const double* all, const std::int32_t* column) {
+    return {all, column};
+  }
   [[nodiscard]] THAWSLIDE_HD double at(const double& index) const {
     return numbers[column[static_cast<std::size_t>(index)]];
   }

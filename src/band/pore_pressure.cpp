@@ -40,8 +40,10 @@ WaterLoss drain_pore_pressure(const mpm::SparseGrid<Dim>& grid, const BandModel<
     const auto pass = [&](const auto& kernel) {
       return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, kernel));
     };
-    return model.balances_water() ? pass(UpdatePorePressure<Dim, seeps(), true>{grid, model, depth})
-                                  : pass(UpdatePorePressure<Dim, seeps(), false>{grid, model, depth});
+    using Columns = typename FlowDepth<Dim>::Columns;
+    return model.balances_water()
+               ? pass(UpdatePorePressure<Columns, seeps(), true>{model, model.hydraulic(), depth.by_tile()})
+               : pass(UpdatePorePressure<Columns, seeps(), false>{model, model.hydraulic(), depth.by_tile()});
   };
   const auto seeps = [&](const mpm::SimdBatch& batch) {
     return any_seeped(model, model.hydraulic(), particles, batch);

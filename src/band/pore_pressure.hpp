@@ -27,20 +27,4 @@ WaterLoss drain_pore_pressure(const mpm::SparseGrid<Dim>& grid, const BandModel<
 template <int Dim>
 void set_pore_pressure(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first = 0);
 
-template <int Dim, bool Seeps, bool Balances>
-struct UpdatePorePressure {
-  using OfTile = PorePressure<ColumnsOfTile<Dim>, Seeps, Balances>;
-  using Reads = typename OfTile::Reads;
-  using Adds = typename OfTile::Adds;
-  using Totals = typename OfTile::Totals;
-
-  const mpm::SparseGrid<Dim>& grid;
-  const BandModel<Dim>& model;
-  const FlowDepth<Dim>& depth;
-
-  [[nodiscard]] OfTile in_tile(std::size_t tile) const {
-    return {model, model.hydraulic(), 0.5 * grid.cell(), depth.of_tile(grid, tile)};
-  }
-};
-
 }  // namespace thawslide::band

@@ -282,4 +282,20 @@ struct PorePressure {
   }
 };
 
+template <class Columns, bool Seeps, bool Balances>
+struct UpdatePorePressure {
+  using InTile = PorePressure<typename Columns::OfTile, Seeps, Balances>;
+  using Reads = typename InTile::Reads;
+  using Adds = typename InTile::Adds;
+  using Totals = typename InTile::Totals;
+
+  BandPhysics model;
+  HydraulicConductivity hydraulic;
+  Columns columns;  // by tile
+
+  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const {
+    return {model, hydraulic, 0.5 * columns.cell, columns.of_tile(tile)};
+  }
+};
+
 }  // namespace thawslide::band

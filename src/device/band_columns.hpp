@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "device/array.hpp"
 #include "device/node_kernels.hpp"
 #include "device/step_model.hpp"
+#include "exec/array.hpp"
 
 namespace thawslide::device {
 
@@ -71,8 +71,8 @@ class BandColumns {
  private:
   Backend& backend_;
   HostColumns cpu_;
-  Array<std::uint32_t, Backend> queried_{backend_};
-  Array<double, Backend> states_{backend_}, records_{backend_};
+  exec::Array<std::uint32_t, Backend> queried_{backend_};
+  exec::Array<double, Backend> states_{backend_}, records_{backend_};
 };
 
 }  // namespace thawslide::device

@@ -4,7 +4,8 @@
 #include <variant>
 
 #include "band/averages_kernel.hpp"
-#include "device/columns.hpp"
+#include "band/slide_columns.hpp"
+#include "device/column_kernels.hpp"
 #include "device/heat_kernels.hpp"
 #include "device/pressure_kernels.hpp"
 #include "device/step_passes.hpp"
@@ -14,14 +15,16 @@ namespace thawslide::device {
 template <class Backend, class Shape, int Dim>
 class BandStages {
   using Passes = StepPasses<Backend, Shape, Dim>;
+  using Columns = band::ColumnsByTile<Dim, band::NumbersOfColumns>;
 
  public:
   // sums: sums of the step, in device memory.
   BandStages(Passes& passes, const HostCallbacks<Dim>& callbacks, StepSums<Dim>* sums)
       : passes_(passes),
         sums_(sums),
-        columns_(passes.backend, passes.model.cell, passes.model.mapping, passes.model.half_sizes,
-                 callbacks.slope_cosine, callbacks.normal_gravity) {
+        sizes_(passes.backend, passes.model.half_sizes, passes.model.cell),
+        columns_(passes.backend, passes.model.cell, passes.model.mapping.has_ground, sizes_.view(),
+                 {callbacks.slope_cosine, callbacks.normal_gravity, {}}) {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
 
@@ -33,7 +36,7 @@ class BandStages {
     }
     if (passes_.model.pressure_changes) {
       passes_.nodes.template resize_for<mpm::Seepage, mpm::SeepingWater>(nodes);
-      columns_.update(passes_.cells.tables());
+      columns_.update(passes_.cells.tables().tile_keys, passes_.cells.tables().tiles);
     }
   }
 
@@ -68,9 +71,15 @@ class BandStages {
     }
   }
   void drain_pore_pressure(double dt) {
-    columns_.sum(passes_.cells.tables(), passes_.particles.view());
+    columns_.sum([&](band::ColumnPart<Dim>* parts) {
+      using InTile = SumInTile<Dim>;
+      passes_.backend.for_groups(passes_.cells.tables().tiles, InTile::at_a_time, InTile::bytes,
+                                 InTile{passes_.cells.tables(), passes_.particles.view(), sizes_.view(),
+                                        passes_.model.cell, passes_.model.mapping, parts});
+    });
     if (passes_.model.band.needs_normal_load()) {
-      passes_.run(passes_.linear(), AddPressureLoad<Dim>{columns_.loading(passes_.cells.tables())});
+      passes_.run(passes_.linear(), AddPressureLoad<Columns>{columns_.template loading_by_tile<band::NumbersOfColumns>(
+                                        passes_.cells.tables().tile_keys)});
     }
     if (find_seepage(SeepingBefore<Dim>{{passes_.particles.view(), passes_.model.band, hydraulic()}})) {
       seep(dt);
@@ -167,21 +176,23 @@ class BandStages {
   template <bool Seeps>
   void update_pressure() {
     if (passes_.model.band.balances_water()) {
-      update_pressure_by<UpdatePorePressure<Dim, Seeps, true>>();
+      update_pressure_by<band::UpdatePorePressure<Columns, Seeps, true>>();
     } else {
-      update_pressure_by<UpdatePorePressure<Dim, Seeps, false>>();
+      update_pressure_by<band::UpdatePorePressure<Columns, Seeps, false>>();
     }
   }
   template <class Kernel>
   void update_pressure_by() {
-    const Kernel kernel{passes_.model.band, hydraulic(), columns_.seen(passes_.cells.tables())};
+    const Kernel kernel{passes_.model.band, hydraulic(),
+                        columns_.template by_tile<band::NumbersOfColumns>(passes_.cells.tables().tile_keys)};
     passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->drained);
   }
 
   Passes& passes_;
   StepSums<Dim>* sums_;
-  Columns<Backend, Dim> columns_;
-  Array<double, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
+  BodySizes<Backend> sizes_;  // half sizes of particles [m]
+  band::SlideColumns<Backend, Dim> columns_;
+  exec::Array<double, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
   double scaling_in_force_ = 0;
 };
 

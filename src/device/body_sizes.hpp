@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "device/array.hpp"
+#include "exec/array.hpp"
 #include "mpm/body_sizes.hpp"
 
 namespace thawslide::device {
@@ -25,7 +25,7 @@ class BodySizes {
   [[nodiscard]] mpm::SizesOfBodies view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
 
  private:
-  Array<double, Backend> half_, inverse_;
+  exec::Array<double, Backend> half_, inverse_;
 };
 
 }  // namespace thawslide::device

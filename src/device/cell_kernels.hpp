@@ -12,24 +12,6 @@
 
 namespace thawslide::device {
 
-// Lower bound: first place in [first, last) of an ascending list whose entry is not less than the key.
-THAWSLIDE_HD inline std::size_t first_not_below(const std::uint64_t* keys, std::size_t first, std::size_t last,
-                                                std::uint64_t key) {
-  while (first < last) {
-    const std::size_t middle = first + (last - first) / 2;
-    if (keys[middle] < key) {
-      first = middle + 1;
-    } else {
-      last = middle;
-    }
-  }
-  return first;
-}
-THAWSLIDE_HD inline std::int32_t index_of_key(const std::uint64_t* keys, std::size_t count, std::uint64_t key) {
-  const std::size_t index = first_not_below(keys, 0, count, key);
-  return index < count && keys[index] == key ? static_cast<std::int32_t>(index) : absent;
-}
-
 template <int Dim>
 THAWSLIDE_HD std::uint64_t key_of_neighbour(std::uint64_t key, std::size_t direction) {
   using T = mpm::Tile<Dim>;
@@ -70,35 +52,6 @@ struct FindKey {
   }
 };
 
-// Marks the places of an ascending list at which a new value begins, ignoring bits below `shift`.
-struct MarkFirst {
-  const std::uint64_t* keys;
-  int shift;
-  std::uint32_t* is_first;
-
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    is_first[k] = k == 0 || keys[k] >> shift != keys[k - 1] >> shift ? 1 : 0;
-  }
-};
-
-// Gathers the values at marked places. number: count of marked places before each place.
-struct KeepFirst {
-  const std::uint64_t* keys;
-  int shift;
-  const std::uint32_t *is_first, *number;
-  std::uint64_t* found;
-  std::uint32_t* index;  // null: not required
-
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    if (is_first[k] != 0) {
-      found[number[k]] = keys[k] >> shift;
-      if (index != nullptr) {
-        index[number[k]] = static_cast<std::uint32_t>(k);
-      }
-    }
-  }
-};
-
 struct FlagDifference {
   const std::uint64_t *a, *b;
   std::uint32_t* any_differs;
@@ -128,7 +81,7 @@ struct FirstOfCell {
     }
     const std::size_t last = tile + 1 < tiles ? first_of_tile[tile + 1] : particles;
     const std::uint64_t key = (tile_keys[tile] << T::node_bits) | (k % static_cast<std::size_t>(T::nodes));
-    first_of_cell[k] = static_cast<std::uint32_t>(first_not_below(keys, first_of_tile[tile], last, key));
+    first_of_cell[k] = static_cast<std::uint32_t>(exec::first_not_below(keys, first_of_tile[tile], last, key));
   }
 };
 
@@ -153,7 +106,7 @@ struct FindNeighbours {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
-    indices[k] = index_of_key(to, count, key_of_neighbour<Dim>(from[k / stencil], k % stencil));
+    indices[k] = exec::index_of_key(to, count, key_of_neighbour<Dim>(from[k / stencil], k % stencil));
   }
 };
 

@@ -2,10 +2,10 @@
 // tables are rebuilt when the nearest node of any particle changes.
 #pragma once
 
-#include "device/array.hpp"
 #include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
-#include "device/unique_keys.hpp"
+#include "exec/array.hpp"
+#include "exec/key_lists.hpp"
 
 namespace thawslide::device {
 
@@ -70,7 +70,7 @@ class Cells {
 
  private:
   template <class Number>
-  void fill(Array<Number, Backend>& numbers, Number number) {
+  void fill(exec::Array<Number, Backend>& numbers, Number number) {
     backend_.for_each(numbers.size(), Fill<Number>{numbers.data(), number});
   }
 
@@ -95,8 +95,8 @@ class Cells {
     find_neighbours(block_keys_, block_keys_, blocks_about_block_);
   }
 
-  void find_neighbours(const Array<std::uint64_t, Backend>& from, const Array<std::uint64_t, Backend>& to,
-                       Array<std::int32_t, Backend>& indices) {
+  void find_neighbours(const exec::Array<std::uint64_t, Backend>& from, const exec::Array<std::uint64_t, Backend>& to,
+                       exec::Array<std::int32_t, Backend>& indices) {
     indices.resize(from.size() * stencil);
     backend_.for_each(indices.size(), FindNeighbours<Dim>{from.data(), to.data(), to.size(), indices.data()});
   }
@@ -104,14 +104,14 @@ class Cells {
   Backend& backend_;
   double inverse_cell_;
   mpm::Mapping mapping_;
-  Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
-  Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};
-  Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};
-  Array<std::uint64_t, Backend> unsorted_{backend_}, neighbour_keys_{backend_};
-  Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
-  Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
-  Array<std::int32_t, Backend> blocks_about_block_{backend_};
-  UniqueKeys<Backend> first_{backend_};
+  exec::Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
+  exec::Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};
+  exec::Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};
+  exec::Array<std::uint64_t, Backend> unsorted_{backend_}, neighbour_keys_{backend_};
+  exec::Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
+  exec::Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
+  exec::Array<std::int32_t, Backend> blocks_about_block_{backend_};
+  exec::UniqueKeys<Backend> first_{backend_};
   bool blocks_changed_ = true;
 };
 

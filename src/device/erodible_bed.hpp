@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "device/array.hpp"
 #include "device/ground.hpp"
 #include "device/node_kernels.hpp"
 #include "device/stacks.hpp"
 #include "device/step_model.hpp"
+#include "exec/array.hpp"
 #include "terrain/bed_node.hpp"
 
 namespace thawslide::device {
@@ -188,9 +188,9 @@ class ErodibleBed {
  private:
   Backend& backend_;
   HostBed<Dim> cpu_;
-  Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
-  Array<std::uint8_t, Backend> covered_{backend_};
-  Array<double, Backend> loads_{backend_}, available_{backend_}, records_{backend_};
+  exec::Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
+  exec::Array<std::uint8_t, Backend> covered_{backend_};
+  exec::Array<double, Backend> loads_{backend_}, available_{backend_}, records_{backend_};
 };
 
 }  // namespace thawslide::device

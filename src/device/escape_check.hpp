@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "device/array.hpp"
 #include "device/tile_tables.hpp"
+#include "exec/array.hpp"
 #include "mpm/kernel.hpp"
 #include "mpm/particle_view.hpp"
 
@@ -106,8 +106,8 @@ class EscapeCheck {
   }
 
  private:
-  Array<std::uint32_t, Backend> marks_, marked_before_;
-  Array<Vector<double, Dim>, Backend> places_;
+  exec::Array<std::uint32_t, Backend> marks_, marked_before_;
+  exec::Array<Vector<double, Dim>, Backend> places_;
 };
 
 }  // namespace thawslide::device

@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "base/ordered_bits.hpp"
-#include "device/array.hpp"
 #include "device/tile_tables.hpp"
+#include "exec/array.hpp"
 #include "mpm/front.hpp"
 #include "mpm/particle_view.hpp"
 
@@ -80,19 +80,19 @@ class Front {
     return {corners_.data(), along_.data(), directions_.data(), boxes_.data(), line.segments};
   }
   template <class T>
-  void copy(Array<T, Backend>& to, const T* from, std::size_t count) {
+  void copy(exec::Array<T, Backend>& to, const T* from, std::size_t count) {
     to.resize(count);
     backend_.copy_in(to.data(), from, count);
   }
 
   Backend& backend_;
   // persistent buffers, to avoid reallocation for each history row
-  Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};
-  Array<std::uint32_t, Backend> sorted_{backend_};
-  Array<mpm::PathSample, Backend> foremost_{backend_};
-  Array<Point2, Backend> corners_{backend_}, directions_{backend_};
-  Array<double, Backend> along_{backend_};
-  Array<BoxOfLine, Backend> boxes_{backend_};
+  exec::Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};
+  exec::Array<std::uint32_t, Backend> sorted_{backend_};
+  exec::Array<mpm::PathSample, Backend> foremost_{backend_};
+  exec::Array<Point2, Backend> corners_{backend_}, directions_{backend_};
+  exec::Array<double, Backend> along_{backend_};
+  exec::Array<BoxOfLine, Backend> boxes_{backend_};
 };
 
 }  // namespace thawslide::device

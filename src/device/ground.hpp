@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "device/array.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
+#include "exec/array.hpp"
 #include "mpm/vectors_in_records.hpp"
 #include "terrain/near_ground_kernel.hpp"
 
@@ -102,7 +102,7 @@ class Ground {
  private:
   // Queries the CPU for new blocks only.
   void update_blocks(const std::vector<std::uint64_t>& blocks) {
-    std::vector<std::int32_t> before = index_map(blocks_, blocks);
+    std::vector<std::int32_t> before = exec::index_map(blocks_, blocks);
     std::vector<AtNode> queried;
     std::vector<std::uint8_t> partly_unknown(blocks.size());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -141,12 +141,12 @@ class Ground {
   GroundQuery<Dim> host_;
   std::vector<std::uint64_t> blocks_;            // known blocks
   std::vector<std::uint8_t> is_partly_unknown_;  // by block
-  Array<std::int32_t, Backend> block_before_{backend_};
-  Array<AtNode, Backend> queried_{backend_}, known_before_{backend_}, known_{backend_};
-  Array<double, Backend> records_{backend_};
-  Array<std::uint32_t, Backend> is_candidate_{backend_}, candidates_before_{backend_}, candidates_{backend_};
-  Array<std::int32_t, Backend> number_{backend_};
-  Array<std::uint8_t, Backend> partly_unknown_{backend_};
+  exec::Array<std::int32_t, Backend> block_before_{backend_};
+  exec::Array<AtNode, Backend> queried_{backend_}, known_before_{backend_}, known_{backend_};
+  exec::Array<double, Backend> records_{backend_};
+  exec::Array<std::uint32_t, Backend> is_candidate_{backend_}, candidates_before_{backend_}, candidates_{backend_};
+  exec::Array<std::int32_t, Backend> number_{backend_};
+  exec::Array<std::uint8_t, Backend> partly_unknown_{backend_};
 };
 
 }  // namespace thawslide::device

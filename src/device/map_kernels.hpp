@@ -33,21 +33,18 @@ struct TileMapLayout {
   }
 };
 
-// By tile and place: the key of the cell, or no_cell.
-struct ListMapCells {
+// Key of the cell at each place of each tile, or no_cell.
+struct KeyOfMapCell {
   TileMapLayout layout;
   const std::uint64_t* tile_keys;
-  std::uint64_t* keys;
-  std::uint32_t* seen;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    const std::size_t index = k % layout.of_tile();
-    const TileMapLayout::Window window = layout.window(tile_keys[k / layout.of_tile()]);
+  [[nodiscard]] THAWSLIDE_HD std::uint64_t operator()(std::size_t place) const {
+    const std::size_t index = place % layout.of_tile();
+    const TileMapLayout::Window window = layout.window(tile_keys[place / layout.of_tile()]);
     const int column = window.columns.first + static_cast<int>(index % layout.across);
     const int row = window.rows.first + static_cast<int>(index / layout.across);
     const bool is_present = column <= window.columns.last && row <= window.rows.last;
-    keys[k] = is_present ? mpm::map_cell_key(column, row) : TileMapLayout::no_cell;
-    seen[k] = static_cast<std::uint32_t>(k);
+    return is_present ? mpm::map_cell_key(column, row) : TileMapLayout::no_cell;
   }
 };
 

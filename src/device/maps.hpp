@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "device/array.hpp"
 #include "device/body_sizes.hpp"
-#include "device/column_kernels.hpp"
 #include "device/map_kernels.hpp"
 #include "device/step_model.hpp"
-#include "device/unique_keys.hpp"
+#include "exec/keyed_parts.hpp"
 
 namespace thawslide::device {
 
@@ -30,7 +28,7 @@ class Maps {
            MapSample& sample) {
     if (!knows_tiles_ || !(cells == layout_.cells)) {
       number_cells(cells, tables);
-      known_keys_ = keys_.get();
+      known_keys_ = parts_.keys().get();
       if (!known_keys_.empty() && known_keys_.back() == TileMapLayout::no_cell) {
         known_keys_.pop_back();
       }
@@ -39,11 +37,10 @@ class Maps {
     sample.keys = known_keys_;
     using InTile = SumMapInTile;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
-                        InTile{layout_, tables, particles, sizes_.view(), parts_.data()});
-    backend_.for_each(keys_.size(), SumParts<mpm::MapSums>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
-                                                           parts_.data(), sums_.data()});
+                        InTile{layout_, tables, particles, sizes_.view(), parts_.parts()});
+    parts_.sum();
     sample.sums.resize(sample.keys.size());
-    backend_.copy_out(sample.sums.data(), sums_.data(), sample.sums.size());
+    backend_.copy_out(sample.sums.data(), parts_.sums(), sample.sums.size());
   }
 
  private:
@@ -54,15 +51,7 @@ class Maps {
     };
     layout_ = {cells, static_cast<double>(cell_), places_along(cells.inverse_cell_x),
                places_along(cells.inverse_cell_y)};
-    keys_of_seen_.resize(tables.tiles * layout_.of_tile());
-    seen_.resize(keys_of_seen_.size());
-    keys_listed_.resize(keys_of_seen_.size());
-    listed_.resize(keys_of_seen_.size());
-    parts_.resize(keys_of_seen_.size());
-    backend_.for_each(seen_.size(), ListMapCells{layout_, tables.tile_keys, keys_listed_.data(), listed_.data()});
-    backend_.sort(keys_listed_.data(), listed_.data(), keys_of_seen_.data(), seen_.data(), seen_.size());
-    first_.find(keys_of_seen_, 0, keys_, &first_seen_);
-    sums_.resize(keys_.size());
+    parts_.list(tables.tiles * layout_.of_tile(), KeyOfMapCell{layout_, tables.tile_keys});
   }
 
   Backend& backend_;
@@ -71,10 +60,7 @@ class Maps {
   TileMapLayout layout_;
   bool knows_tiles_ = false;
   std::vector<std::uint64_t> known_keys_;  // of cells below at least one tile
-  UniqueKeys<Backend> first_{backend_};
-  Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
-  Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
-  Array<mpm::MapSums, Backend> parts_{backend_}, sums_{backend_};
+  exec::KeyedParts<mpm::MapSums, Backend> parts_{backend_};
 };
 
 }  // namespace thawslide::device

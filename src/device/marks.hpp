@@ -1,9 +1,9 @@
 // Marks of tiles and blocks, to restrict passes to them.
 #pragma once
 
-#include "device/array.hpp"
 #include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
+#include "exec/array.hpp"
 
 namespace thawslide::device {
 
@@ -115,8 +115,8 @@ class Marks {
 
  private:
   Backend& backend_;
-  Array<std::uint8_t, Backend> tiles_{backend_}, blocks_{backend_};
-  Array<std::uint32_t, Backend> any_{backend_, 1};
+  exec::Array<std::uint8_t, Backend> tiles_{backend_}, blocks_{backend_};
+  exec::Array<std::uint32_t, Backend> any_{backend_, 1};
 };
 
 }  // namespace thawslide::device

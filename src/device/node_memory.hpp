@@ -1,9 +1,9 @@
 // Records of all nodes of active blocks in device memory, by name.
 #pragma once
 
-#include "device/array.hpp"
 #include "device/node_kernels.hpp"
 #include "device/passes.hpp"
+#include "exec/array.hpp"
 
 namespace thawslide::device {
 
@@ -23,11 +23,11 @@ class NodeMemory {
   }
 
   template <class Name>
-  [[nodiscard]] Array<double, Backend>& of() {
+  [[nodiscard]] exec::Array<double, Backend>& of() {
     return records_.template of<Name>();
   }
   template <class Name>
-  [[nodiscard]] const Array<double, Backend>& of() const {
+  [[nodiscard]] const exec::Array<double, Backend>& of() const {
     return records_.template of<Name>();
   }
   // known: ground data by node; null without ground.
@@ -45,7 +45,7 @@ class NodeMemory {
 
  private:
   Backend& backend_;
-  Array<double, Backend> base_{backend_};
+  exec::Array<double, Backend> base_{backend_};
   NodeArrays<Backend, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
              mpm::Velocity, mpm::HeatRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
              mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>

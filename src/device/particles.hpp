@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "device/array.hpp"
 #include "device/cell_kernels.hpp"
+#include "exec/array.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
@@ -119,9 +119,9 @@ class Particles {
   Backend& backend_;
   std::size_t count_;
   View view_{};
-  std::vector<Array<std::byte, Backend>> fields_;  // fields that are present, in order
-  Array<std::byte, Backend> gathered_{backend_};
-  Array<std::uint32_t, Backend> by_id_{backend_}, input_order_{backend_}, index_{backend_};
+  std::vector<exec::Array<std::byte, Backend>> fields_;  // fields that are present, in order
+  exec::Array<std::byte, Backend> gathered_{backend_};
+  exec::Array<std::uint32_t, Backend> by_id_{backend_}, input_order_{backend_}, index_{backend_};
 };
 
 }  // namespace thawslide::device

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "device/add_up.hpp"
-#include "device/array.hpp"
 #include "device/node_sums.hpp"
 #include "device/particle_pass.hpp"
+#include "exec/array.hpp"
 
 namespace thawslide::device {
 
@@ -26,16 +26,16 @@ class PassMemory {
   }
 
  private:
-  Array<double, Backend> patches_;
-  Array<std::byte, Backend> sums_;
+  exec::Array<double, Backend> patches_;
+  exec::Array<std::byte, Backend> sums_;
 };
 
 // Nodal records, one array per name.
 template <class Backend, class... Names>
-struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<double, Backend>>...> {
+struct NodeArrays : mpm::ByName<mpm::Named<Names, exec::Array<double, Backend>>...> {
   explicit NodeArrays(Backend& backend)
-      : mpm::ByName<mpm::Named<Names, Array<double, Backend>>...>{
-            mpm::Named<Names, Array<double, Backend>>{Array<double, Backend>(backend)}...} {}
+      : mpm::ByName<mpm::Named<Names, exec::Array<double, Backend>>...>{
+            mpm::Named<Names, exec::Array<double, Backend>>{exec::Array<double, Backend>(backend)}...} {}
 };
 
 // Equivalent of mpm::particle_pass, with kernels that hold their parameters by value. Contributions are left in the

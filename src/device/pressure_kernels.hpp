@@ -5,7 +5,6 @@
 #include "band/averages_kernel.hpp"
 #include "band/nodal_seepage.hpp"
 #include "band/pressure_kernels.hpp"
-#include "device/column_kernels.hpp"
 #include "device/node_kernels.hpp"
 
 namespace thawslide::device {
@@ -77,14 +76,14 @@ struct KeepVented {
 };
 
 // Normal load of a particle, from columns that hold the load per depth in place of the cosine.
-template <int Dim>
+template <class Columns>
 struct AddPressureLoad {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Totals = mpm::NoTotals;
 
   struct InTile {
-    typename ColumnsByTile<Dim>::OfTile columns;
+    typename Columns::OfTile columns;
 
     template <class Particles, class At, class Seen, class Scatter>
     THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
@@ -93,25 +92,9 @@ struct AddPressureLoad {
     }
   };
 
-  ColumnsByTile<Dim> columns;
+  Columns columns;  // by tile
 
   [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const { return InTile{columns.of_tile(tile)}; }
-};
-
-template <int Dim, bool Seeps, bool Balances>
-struct UpdatePorePressure {
-  using InTile = band::PorePressure<typename ColumnsByTile<Dim>::OfTile, Seeps, Balances>;
-  using Reads = typename InTile::Reads;
-  using Adds = typename InTile::Adds;
-  using Totals = typename InTile::Totals;
-
-  band::BandPhysics physics;
-  band::HydraulicConductivity hydraulic;
-  ColumnsByTile<Dim> columns;
-
-  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const {
-    return {physics, hydraulic, 0.5 * columns.cell, columns.of_tile(tile)};
-  }
 };
 
 }  // namespace thawslide::device

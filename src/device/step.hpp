@@ -196,7 +196,7 @@ class Step {
     maps_.forget_tiles();
     band_.resize_for(nodes);
     if (!passes_.model.moves) {
-      for (Array<double, Backend>* records :
+      for (exec::Array<double, Backend>* records :
            {&passes_.template of<mpm::Momentum>(), &passes_.template of<mpm::Contact>()}) {
         passes_.backend.for_each(records->size(), Fill<double>{records->data(), 0.0});
       }
@@ -340,20 +340,20 @@ class Step {
   std::uint64_t* reduced(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
 
   Passes passes_;
-  Array<Sums, Backend> sums_;
+  exec::Array<Sums, Backend> sums_;
   BandStages<Backend, Shape, Dim> band_;
   Maps<Backend> maps_;
   BandColumns<Backend, Dim> band_columns_;
   ErodibleBed<Backend, Dim> bed_;
-  Array<double, Backend> column_heights_{passes_.backend};
-  Array<double, Backend> free_gaps_{passes_.backend};
-  Array<ContactInput, Backend> bases_{passes_.backend};
+  exec::Array<double, Backend> column_heights_{passes_.backend};
+  exec::Array<double, Backend> free_gaps_{passes_.backend};
+  exec::Array<ContactInput, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   Front<Backend, Dim> front_{passes_.backend};
-  Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
-  Array<band::StepExtremes, Backend> extremes_{passes_.backend, 1};
-  Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};
-  Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
+  exec::Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
+  exec::Array<band::StepExtremes, Backend> extremes_{passes_.backend, 1};
+  exec::Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};
+  exec::Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };
 
 }  // namespace thawslide::device

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "band/at_columns.hpp"
+#include "band/columns.hpp"
 #include "band/heat_face.hpp"
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"
@@ -122,7 +122,7 @@ struct HostCallbacks {
   GroundQuery<Dim> ground;
   // Heights of all columns of nodes [m] (terrain/following_ground.hpp). Empty without ground.
   std::function<std::vector<double>()> column_heights;
-  // As in band/flow_depth.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
+  // As in band/slide_columns.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPosition<Dim> slope_cosine, normal_gravity;
   HostColumns columns;
   HostBed<Dim> bed;

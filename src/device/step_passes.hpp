@@ -73,7 +73,7 @@ class StepPasses {
                                                                             of<Name>().data()});
   }
   template <class Kernel, class Sum>
-  Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {
+  Sum sum_over_particles(const Kernel& kernel, exec::Array<Sum, Backend>& sum) {
     keep(&run(linear(), kernel)->template of<Kernel>(), sum.data());
     return sum.get(0);
   }
@@ -84,7 +84,7 @@ class StepPasses {
   }
 
   template <class Name>
-  [[nodiscard]] Array<double, Backend>& of() {
+  [[nodiscard]] exec::Array<double, Backend>& of() {
     return nodes.template of<Name>();
   }
   [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }

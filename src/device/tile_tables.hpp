@@ -3,14 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "base/portability.hpp"
+#include "exec/key_lists.hpp"
 #include "mpm/tile.hpp"
 
 namespace thawslide::device {
 
-inline constexpr std::int32_t absent = -1;
+using exec::absent;
 
 template <int Dim>
 struct TileTables {
@@ -75,23 +75,6 @@ THAWSLIDE_HD std::size_t lowest_about(std::size_t node) {
     --lowest[static_cast<std::size_t>(a)];
   }
   return static_cast<std::size_t>(T::in_patch(lowest));
-}
-
-// Index map from current to former keys, to reuse earlier results of CPU queries: index of each key in the list
-// `former`, or absent. Both lists ascend.
-inline std::vector<std::int32_t> index_map(const std::vector<std::uint64_t>& former,
-                                           const std::vector<std::uint64_t>& keys) {
-  std::vector<std::int32_t> indices(keys.size(), absent);
-  std::size_t at = 0;
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    while (at < former.size() && former[at] < keys[k]) {
-      ++at;
-    }
-    if (at < former.size() && former[at] == keys[k]) {
-      indices[k] = static_cast<std::int32_t>(at);
-    }
-  }
-  return indices;
 }
 
 }  // namespace thawslide::device

@@ -16,12 +16,13 @@ ALLOWED = {
     "config": {"base", "physics", "config"},
     "mpm": {"base", "physics", "mpm"},
     "terrain": {"base", "physics", "mpm", "terrain"},
-    "band": {"base", "physics", "mpm", "band"},
-    "device": {"base", "physics", "mpm", "terrain", "band", "device"},
-    "sim": {"base", "physics", "config", "mpm", "terrain", "band", "device", "sim"},
+    "exec": {"base", "exec"},
+    "band": {"base", "physics", "mpm", "exec", "band"},
+    "device": {"base", "physics", "mpm", "exec", "terrain", "band", "device"},
+    "sim": {"base", "physics", "config", "mpm", "exec", "terrain", "band", "device", "sim"},
     "io": {"base", "config", "mpm", "io", "generated"},
     "gis": {"base", "config", "gis"},
-    "run": {"base", "physics", "config", "mpm", "terrain", "band", "device", "sim", "io", "gis", "run"},
+    "run": {"base", "physics", "config", "mpm", "exec", "terrain", "band", "device", "sim", "io", "gis", "run"},
 }
 ALLOWED["python"] = ALLOWED["run"] | {"python", "generated"}
 ALLOWED["app"] = ALLOWED["run"] | {"app", "generated"}

@@ -46,7 +46,7 @@ BlockColumn::BlockColumn(const band::BandModel<2>& model, const Initial& initial
   set_normal_load(initial.normal_pressure);
   band::set_pore_pressure(model_, rows_);
   grid_.update(rows_, 0);
-  flow_depth_.update(grid_, model_, {}, rows_);
+  flow_depth_.update(grid_, model_, {}, {}, rows_);
   find_base_nodes();
 }
 

@@ -1,10 +1,10 @@
-// Terrain functions for the columns of the slide (band/flow_depth.hpp). They refer to the model, which must outlive
+// Terrain functions for the columns of the slide (band/slide_columns.hpp). They refer to the model, which must outlive
 // them.
 #pragma once
 
 #include <algorithm>
 
-#include "band/at_columns.hpp"
+#include "band/columns.hpp"
 #include "sim/setup/model.hpp"
 
 namespace thawslide::sim {

@@ -232,7 +232,7 @@ void CpuSolver<Dim>::join(std::size_t first) {
   slide_.are_located = false;
   slide_.locate(model);
   slide_.update_grid(model, 0);
-  if (model.band.pressure && model.band.needs_normal_load()) {
+  if (needs_normal_load()) {
     update_flow_depth();
     update_normal_load(first);
   }
@@ -259,14 +259,15 @@ void CpuSolver<Dim>::mark_band() {
 
 template <int Dim>
 void CpuSolver<Dim>::update_flow_depth() {
-  flow_depth_.update(slide_.grid, setup_.model.band, slope_cosine_of(setup_.model, setup_.cell()), slide_.particles);
+  flow_depth_.update(slide_.grid, setup_.model.band, slope_cosine_of(setup_.model, setup_.cell()),
+                     needs_normal_load() ? normal_gravity_of(setup_.model, setup_.cell()) : band::OfPosition<Dim>(),
+                     slide_.particles);
 }
 
 template <int Dim>
 void CpuSolver<Dim>::update_normal_load(std::size_t first) {
-  const band::BandModel<Dim>& model = setup_.model.band;
-  if (model.pressure && model.needs_normal_load()) {
-    flow_depth_.load_to_particles(slide_.grid, normal_gravity_of(setup_.model, setup_.cell()), slide_.particles, first);
+  if (needs_normal_load()) {
+    flow_depth_.load_to_particles(slide_.grid, slide_.particles, first);
   }
 }
 

@@ -59,6 +59,9 @@ class CpuSolver final : public Solver<Dim> {
 
   void mark_band();
   void rescale_band();
+  [[nodiscard]] bool needs_normal_load() const {
+    return setup_.model.band.pressure && setup_.model.band.needs_normal_load();
+  }
   void update_flow_depth();
   // Updates the load on particles at memory index `first` and above: weight of the column above, normal to the ground.
   void update_normal_load(std::size_t first = 0);

@@ -58,10 +58,10 @@ void expect_thickness(double from, double bulge, double allowed) {
   BoxOnGrid<Dim> scene(from, bulge);
   auto& [box, grid, model] = scene;
   FlowDepth<Dim> depth;
-  depth.update(grid, model, {}, box);
+  depth.update(grid, model, {}, {}, box);
   depth.depth_to_particles(grid, box);
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    const auto columns = depth.of_tile(grid, t);
+    const auto columns = depth.by_tile().of_tile(t);
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const double below_top = layers * spacing - box.position(p, Dim - 1);
@@ -91,8 +91,8 @@ void expect_load(double from) {
     for (std::size_t p = 0; p < box.size(); ++p) {
       box.mass(p) *= thinning;
     }
-    depth.update(grid, model, {}, box);
-    depth.load_to_particles(grid, normal_gravity, box);
+    depth.update(grid, model, {}, normal_gravity, box);
+    depth.load_to_particles(grid, box);
     for (std::size_t p = 0; p < box.size(); ++p) {
       const double above = box.in_band(p) != 0 ? layers * spacing : layers * spacing - box.position(p, Dim - 1);
       const double load = thinning * 2000.0 * 0.48 * 9.81 * above;
@@ -125,14 +125,14 @@ TEST(FlowDepth, FollowsTheBodyFromTileToTile) {
   FlowDepth<2> followed;
   for (int step = 0; step < 60; ++step) {
     grid.update(box, 7);
-    followed.update(grid, model, {}, box);
+    followed.update(grid, model, {}, {}, box);
     followed.depth_to_particles(grid, box);
     std::vector<double> depth(box.size());
     for (std::size_t p = 0; p < box.size(); ++p) {
       depth[p] = box.flow_depth(p);
     }
     FlowDepth<2> fresh;
-    fresh.update(grid, model, {}, box);
+    fresh.update(grid, model, {}, {}, box);
     fresh.depth_to_particles(grid, box);
     for (std::size_t p = 0; p < box.size(); ++p) {
       ASSERT_EQ(depth[p], box.flow_depth(p)) << "step " << step;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "device/array.hpp"
 #include "device/host_backend.hpp"
+#include "exec/array.hpp"
 
 namespace thawslide::device {
 namespace {
@@ -32,7 +32,7 @@ double on_cpu(const std::vector<double>& parts) {
 
 double on_device(const std::vector<double>& parts, ThreadOrder order) {
   Host host(order);
-  Array<double, Host> sums(host);
+  exec::Array<double, Host> sums(host);
   std::vector<double> padded = parts;
   padded.resize(partial_sum_count(parts.size()));
   sums.set(padded);

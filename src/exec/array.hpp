@@ -1,17 +1,18 @@
-// Array in device memory. A backend, Host (device/host_backend.hpp) or Cuda (device/cuda_backend.hpp), allocates
-// memory, launches one thread or one thread group per item, sorts, and computes prefix sums.
+// Array in the memory of an executor: Cpu (exec/cpu.hpp), Cuda (device/cuda_executor.hpp), or Host, which emulates Cuda
+// (device/host_executor.hpp). An executor allocates memory, launches one thread per item, sorts, and computes prefix
+// sums; those of devices also launch one thread group per item.
 #pragma once
 
 #include <cstddef>
 #include <utility>
 #include <vector>
 
-namespace thawslide::device {
+namespace thawslide::exec {
 
-template <class T, class Backend>
+template <class T, class Executor>
 class Array {
  public:
-  explicit Array(Backend& backend, std::size_t count = 0) : backend_(&backend) { resize(count); }
+  explicit Array(Executor& executor, std::size_t count = 0) : executor_(&executor) { resize(count); }
   Array(Array&& other) noexcept { swap(other); }
   Array& operator=(Array&& other) noexcept {
     swap(other);
@@ -21,12 +22,12 @@ class Array {
   Array& operator=(const Array&) = delete;
   ~Array() {
     if (numbers_ != nullptr) {
-      backend_->release(numbers_);
+      executor_->release(numbers_);
     }
   }
 
   void swap(Array& other) noexcept {
-    std::swap(backend_, other.backend_);
+    std::swap(executor_, other.executor_);
     std::swap(numbers_, other.numbers_);
     std::swap(count_, other.count_);
     std::swap(capacity_, other.capacity_);
@@ -40,10 +41,10 @@ class Array {
   void resize(std::size_t count) {
     if (count > capacity_) {
       if (numbers_ != nullptr) {
-        backend_->release(std::exchange(numbers_, nullptr));
+        executor_->release(std::exchange(numbers_, nullptr));
       }
       const std::size_t capacity = std::exchange(capacity_, 0) == 0 ? count : count + count / 4;
-      numbers_ = backend_->template allocate<T>(capacity);
+      numbers_ = executor_->template allocate<T>(capacity);
       capacity_ = capacity;
     }
     count_ = count;
@@ -51,23 +52,23 @@ class Array {
 
   void set(const std::vector<T>& numbers) {
     resize(numbers.size());
-    backend_->copy_in(numbers_, numbers.data(), count_);
+    executor_->copy_in(numbers_, numbers.data(), count_);
   }
   [[nodiscard]] std::vector<T> get() const {
     std::vector<T> numbers(count_);
-    backend_->copy_out(numbers.data(), numbers_, count_);
+    executor_->copy_out(numbers.data(), numbers_, count_);
     return numbers;
   }
   [[nodiscard]] T get(std::size_t k) const {
     T number;
-    backend_->copy_out(&number, numbers_ + k, 1);
+    executor_->copy_out(&number, numbers_ + k, 1);
     return number;
   }
 
  private:
-  Backend* backend_ = nullptr;
+  Executor* executor_ = nullptr;
   T* numbers_ = nullptr;
   std::size_t count_ = 0, capacity_ = 0;
 };
 
-}  // namespace thawslide::device
+}  // namespace thawslide::exec
