@@ -9,9 +9,7 @@
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/records.hpp"
-#include "physics/basal/laws.hpp"
-#include "physics/contact.hpp"
-#include "terrain/contact_node.hpp"
+#include "terrain/contact_stage.hpp"
 
 namespace thawslide::device {
 
@@ -74,6 +72,7 @@ struct FacesAtNode {
     }
     return false;
   }
+  [[nodiscard]] THAWSLIDE_HD bool is_held() const { return false; }
   THAWSLIDE_HD bool apply(double /*mass*/, Vector<double, Dim>& momentum) const {
     faces.apply_faces(position, momentum);
     return false;
@@ -83,6 +82,7 @@ struct FacesAtNode {
 // Arguments common to all node kernels of a step.
 template <int Dim>
 struct NodeStageArgs {
+  static constexpr int dim = Dim;
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   TileTables<Dim> tables;
@@ -95,19 +95,12 @@ struct NodeStageArgs {
   [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
     return {faces, position_of_node<Dim>(tables.block_keys, node, cell)};
   }
-  [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim> trial(std::size_t node) const {
-    return terrain::trial_state<Dim>(walls(node), dt, mass_damping,
-                                     static_cast<const double*>(nodes.momentum_at(node)));
+  [[nodiscard]] THAWSLIDE_HD const terrain::GroundAtNode<Dim>& ground(std::size_t node) const {
+    return nodes.known[node];
   }
-  [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
-    return nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass] > 0.0;
+  [[nodiscard]] THAWSLIDE_HD double space(std::size_t /*node*/) const {
+    return Dim == 2 ? cell * cell : cell * cell * cell;
   }
-  // Clearance of a candidate node along the normal of the ground [m].
-  [[nodiscard]] THAWSLIDE_HD double clearance_along_normal(std::size_t node) const {
-    return terrain::clearance_along_normal(nodes.known[node].normal,
-                                           nodes.near_ground_at(node)[mpm::NearGround::clearance]);
-  }
-  // Finds the node `step` layers above a node. Returns false if there is no such block.
   THAWSLIDE_HD bool find_above(std::size_t node, int step, std::size_t& found) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
     const auto adjacent = mpm::Tile<Dim>::adjacent(static_cast<int>(node % block_nodes), Dim - 1, step);
@@ -135,7 +128,8 @@ struct SetState {
   }
 };
 
-// Load of a candidate node on the ground, and the ground area that the sliding mass covers.
+// Kernels with one thread per candidate node (terrain/contact_stage.hpp): load on the ground and covered area; input of
+// the basal laws; friction and cohesion by the laws of one substrate.
 template <int Dim>
 struct PressOnGround {
   NodeStageArgs<Dim> step;
@@ -143,102 +137,46 @@ struct PressOnGround {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t node = candidates[k];
-    const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
     double* base = step.nodes.base_at(node);
-    base[mpm::BaseLayout::load] = 0.0;
-    if (step.has_mass(node)) {
-      const auto state = step.trial(node);
-      base[mpm::BaseLayout::load] =
-          known.bend * terrain::approach(step.distance_check, step.clearance_along_normal(node), step.dt, state.mass,
-                                         state.momentum.dot(known.normal));
-    }
-    base[mpm::BaseLayout::covered] = 0.0;
-    if (known.area > 0.0) {
-      const double cell = step.cell;
-      base[mpm::BaseLayout::covered] =
-          known.area * terrain::covered_fraction(Dim == 2 ? cell * cell : cell * cell * cell, [&](int above) {
-            std::size_t other = 0;
-            return step.find_above(node, above, other) ? step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume]
-                                                       : 0.0;
-          });
-    }
+    base[mpm::BaseLayout::load] = terrain::load_on_ground(step, node);
+    base[mpm::BaseLayout::covered] = terrain::covered_ground(step, node);
   }
 };
-
-// Input of the basal laws at a candidate node, and their results.
-struct ContactInput {
-  physics::basal::ContactNode node;
-  double area;  // [m2]; 0: not in contact
-  // mu_e, pore pressure that reduces friction [Pa], drag [Pa], c_S [Pa]
-  double friction, relief, drag, cohesion;
-};
-
 template <int Dim>
-struct GatherContactInput {
+struct GatherBasalNode {
   NodeStageArgs<Dim> step;
   const std::uint32_t* candidates;
   double smallest_area, gravity;
   const double* columns;  // records of BaseState by candidate; null without band columns
-  ContactInput* bases;
+  terrain::BasalNode* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    using mpm::BaseLayout;
+    const double* state = columns != nullptr ? columns + k * mpm::BaseState::size<Dim> : nullptr;
     const std::size_t node = candidates[k];
-    const NodeViews<Dim>& nodes = step.nodes;
-    ContactInput& base = bases[k];
-    base.area = 0.0;
-    const double load = nodes.base_at(node)[BaseLayout::load];
-    if (!step.has_mass(node) || !(load > 0.0)) {
-      return;
-    }
-    const Vector<double, Dim>& normal = nodes.known[node].normal;
-    const double none[BaseLayout::size] = {};
-    const double pressure = terrain::pressure_of_column(step.dt, smallest_area, [&](int above) -> const double* {
-      std::size_t other = 0;
-      return step.find_above(node, above, other) ? nodes.base_at(other) : none;
-    });
-    base.area = load / (pressure * step.dt);  // the basal area is divided among nodes in proportion to their loads
-    base.node = terrain::contact_node_of<Dim>(
-        static_cast<const double*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
-        static_cast<const double*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
-    if (columns != nullptr) {
-      terrain::set_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
-    }
-    base.node.time = step.time;
-    base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const double*>(nodes.momentum_at(node)), gravity);
+    terrain::gather_basal_node(step, node, smallest_area, gravity, true, state, bases[k]);
   }
 };
-
-// Friction and cohesion by the laws of one substrate, at its nodes.
-template <class Law, int Dim>
+template <class Law>
 struct EvaluateFriction {
   Law law;
   int substrate;
-  const terrain::GroundAtNode<Dim>* known;
-  const std::uint32_t* candidates;
-  ContactInput* bases;
+  terrain::BasalNode* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    ContactInput& base = bases[k];
-    if (known[candidates[k]].substrate == substrate && base.area > 0.0) {
-      base.friction = law.coefficient(base.node);
-      base.drag = physics::basal::drag_of(law, base.node);
-      base.relief = Law::depends_on_pore_pressure ? base.node.pore_pressure : 0.0;
+    if (bases[k].area > 0.0 && bases[k].substrate == substrate) {
+      bases[k].set_friction(law);
     }
   }
 };
-template <class Law, int Dim>
+template <class Law>
 struct EvaluateCohesion {
   Law law;
   int substrate;
-  const terrain::GroundAtNode<Dim>* known;
-  const std::uint32_t* candidates;
-  ContactInput* bases;
+  terrain::BasalNode* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    ContactInput& base = bases[k];
-    if (known[candidates[k]].substrate == substrate && base.area > 0.0) {
-      base.cohesion = law.cohesion(base.node);
+    if (bases[k].area > 0.0 && bases[k].substrate == substrate) {
+      bases[k].cohesion = law.cohesion(bases[k].state);
     }
   }
 };
@@ -263,7 +201,7 @@ struct ResolveContact {
 
   NodeStageArgs<Dim> step;
   const std::int32_t* number;  // by node, index among candidates; null: no ground
-  const ContactInput* bases;
+  const terrain::BasalNode* bases;
   physics::FrictionClamp clamp;
   bool cap_pressure;
   double heat_fraction;
@@ -271,22 +209,20 @@ struct ResolveContact {
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
     const NodeViews<Dim>& nodes = step.nodes;
-    double* motion = nodes.motion_at(node);
     double* contact = nodes.contact_at(node);
-    clear<mpm::Motion>(motion);
+    clear<mpm::Motion>(nodes.motion_at(node));
     clear<mpm::Contact>(contact);
     const std::int32_t candidate = number != nullptr ? number[node] : absent;
     contact[mpm::Contact::candidate] = candidate != absent ? 1.0 : 0.0;
-    if (!step.has_mass(node)) {
+    if (!terrain::has_mass(step, node)) {
       return;
     }
-    auto state = step.trial(node);
-    const FacesAtNode<Dim> walls = step.walls(node);
+    auto state = terrain::trial_of(step, node);
     if (candidate != absent && bases[candidate].area > 0.0) {
       part.touches = true;
-      touch(static_cast<std::size_t>(candidate), node, walls, state, part.contact, contact);
+      touch(static_cast<std::size_t>(candidate), node, state, part.contact);
     }
-    terrain::finish_node<Dim>(state, walls.any(), step.mass_damping, step.dt, part.motion, motion);
+    terrain::store_motion(step, node, state, part.motion);
   }
 
   // Adds nodes in contact after the others.
@@ -311,18 +247,12 @@ struct ResolveContact {
       record[c] = 0.0;
     }
   }
-  THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim>& walls,
-                          terrain::NodeState<Dim>& state, Sum& work, double* contact) const {
-    const ContactInput& base = bases[candidate];
-    const double sliding = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief,
-                                                     base.cohesion, clamp, cap_pressure) +
-                           base.drag;
-    const double strength = step.base_is_fixed ? std::numeric_limits<double>::infinity() : sliding;
-    const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
-    const terrain::ContactConditions<Dim> conditions{
-        known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
-    terrain::apply_contact(walls, conditions, heat_fraction, step.dt,
-                           beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);
+  THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, terrain::NodeState<Dim>& state, Sum& work) const {
+    const terrain::BasalNode& base = bases[candidate];
+    const double strength =
+        step.base_is_fixed ? std::numeric_limits<double>::infinity() : base.strength(clamp, cap_pressure);
+    terrain::touch_ground(step, node, base, strength, heat_fraction,
+                          beds.below(candidate, base.area, strength, step.dt, state.mass), state, work);
   }
 };
 
@@ -335,18 +265,7 @@ struct MapBack {
   NodeStageArgs<Dim> step;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& work) const {
-    const NodeViews<Dim>& nodes = step.nodes;
-    if (!step.has_mass(node)) {
-      return;
-    }
-    const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > 0.0;
-    const terrain::GroundOfMappedBack<Dim> below{touching, step.distance_check,
-                                                 touching ? &nodes.known[node].normal : nullptr,
-                                                 touching ? step.clearance_along_normal(node) : 0.0};
-    double* velocity = nodes.velocity_at(node);
-    work = terrain::map_back<Dim>(step.walls(node), below, step.gravity, step.dt,
-                                  static_cast<const double*>(nodes.momentum_at(node)),
-                                  static_cast<const double*>(nodes.motion_at(node)), velocity);
+    work = terrain::map_back_node(step, node, step.nodes.contact_at(node)[mpm::Contact::touching] > 0.0, step.gravity);
   }
   THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
     for (std::size_t k = 0; k < count; ++k) {

@@ -69,23 +69,23 @@ struct DeformMaterial {
 // cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
 template <class Backend, int Dim>
 void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, double cell,
-                           const Ground<Backend, Dim>& ground, const double* columns, ContactInput* bases) {
+                           const Ground<Backend, Dim>& ground, const double* columns, terrain::BasalNode* bases) {
   const std::size_t count = ground.candidate_count();
   const std::uint32_t* candidates = ground.candidates();
   backend.for_each(count, PressOnGround<Dim>{step, candidates});
   const double face = Dim == 2 ? cell : cell * cell;
-  backend.for_each(count, GatherContactInput<Dim>{step, candidates, static_cast<double>(terrain::smallest_area) * face,
-                                                  base.gravity, columns, bases});
+  backend.for_each(count, GatherBasalNode<Dim>{step, candidates, static_cast<double>(terrain::smallest_area) * face,
+                                               base.gravity, columns, bases});
   for (std::size_t g = 0; g < base.grounds.size(); ++g) {
     const int substrate = static_cast<int>(g);
     std::visit(
         [&]<class Law>(const Law& law) {
-          backend.for_each(count, EvaluateFriction<Law, Dim>{law, substrate, ground.known(), candidates, bases});
+          backend.for_each(count, EvaluateFriction<Law>{law, substrate, bases});
         },
         base.grounds[g].friction);
     std::visit(
         [&]<class Law>(const Law& law) {
-          backend.for_each(count, EvaluateCohesion<Law, Dim>{law, substrate, ground.known(), candidates, bases});
+          backend.for_each(count, EvaluateCohesion<Law>{law, substrate, bases});
         },
         base.grounds[g].cohesion);
   }
@@ -347,7 +347,7 @@ class Step {
   ErodibleBed<Backend, Dim> bed_;
   exec::Array<double, Backend> column_heights_{passes_.backend};
   exec::Array<double, Backend> free_gaps_{passes_.backend};
-  exec::Array<ContactInput, Backend> bases_{passes_.backend};
+  exec::Array<terrain::BasalNode, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   Front<Backend, Dim> front_{passes_.backend};
   exec::Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};

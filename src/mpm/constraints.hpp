@@ -103,6 +103,7 @@ struct NodeConstraints {
   std::size_t node;
 
   [[nodiscard]] bool any() const { return of_block.any(); }
+  [[nodiscard]] bool is_held() const { return of_block.is_held(); }
   bool apply(double mass, Vector<double, Dim>& momentum) const { return of_block.apply(node, mass, momentum); }
 };
 

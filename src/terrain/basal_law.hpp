@@ -1,13 +1,13 @@
-// Basal strength, evaluated over arrays of contact nodes (Eqs. 17, 25 and the cohesion laws).
+// Basal strength at contact nodes (Eqs. 17, 25 and the cohesion laws).
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <span>
 #include <variant>
 #include <vector>
 
-#include "mpm/tile.hpp"
+#include "base/portability.hpp"
 #include "physics/basal/laws.hpp"
 #include "physics/contact.hpp"
 
@@ -36,68 +36,50 @@ struct BasalLaw {
   }
 };
 
-// State and strength of up to `capacity` contact nodes, one array per quantity.
-struct BasalNodes {
-  static constexpr std::size_t capacity = static_cast<std::size_t>(mpm::Tile<3>::nodes);
-  template <class T>
-  using Column = std::array<T, capacity>;
+// State of a contact node, and its friction and cohesion. For host and device.
+struct BasalNode {
+  physics::basal::ContactNode state;
+  int substrate = 0;  // number
+  double area = 0;    // of contact [m2]; 0: none
+  // Coefficient mu_e, pore pressure that reduces friction [Pa], drag [Pa] and c_S [Pa].
+  double friction = 0, relief = 0, drag = 0, cohesion = 0;
 
-  std::size_t count = 0;
-  // Input: substrate number, normal pressure N [Pa], pore pressure P [Pa], temperature T [C], liquid saturation S,
-  // effective solid fraction n_e (Eq. 2), slip [m], slip speed v [m/s] and unit weight rho g of the sliding mass
-  // [N/m3].
-  Column<int> substrate;
-  Column<double> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
-  // Output: friction coefficient mu_e, pore pressure that reduces friction, drag, cohesion c_S and sliding strength
-  // [Pa].
-  Column<double> friction, relief, drag, cohesion, strength;
-
-  [[nodiscard]] physics::basal::ContactNode node(std::size_t k, double time) const {
-    return {normal_pressure[k], pore_pressure[k], temperature[k], saturation[k],
-            solid_fraction[k],  slip[k],          speed[k],       time,
-            unit_weight[k]};
+  template <class Law>
+  THAWSLIDE_HD void set_friction(const Law& law) {
+    friction = law.coefficient(state);
+    drag = physics::basal::drag_of(law, state);
+    relief = Law::depends_on_pore_pressure ? state.pore_pressure : 0.0;
+  }
+  // Of the base, against sliding [Pa].
+  [[nodiscard]] THAWSLIDE_HD double strength(physics::FrictionClamp clamp, bool cap_pressure) const {
+    return physics::sliding_strength(friction, state.normal_pressure, relief, cohesion, clamp, cap_pressure) + drag;
   }
 };
 
-// Computes friction, relief, drag and cohesion of the nodes on one substrate. The laws are dispatched once, outside the
-// loop over nodes.
-inline void evaluate_ground_law(const GroundLaw& law, int substrate, double time, BasalNodes& nodes) {
-  std::visit(
-      [&]<class Friction>(const Friction& friction) {
-        for (std::size_t k = 0; k < nodes.count; ++k) {
-          if (nodes.substrate[k] == substrate) {
-            const auto node = nodes.node(k, time);
-            nodes.friction[k] = friction.coefficient(node);
-            nodes.drag[k] = physics::basal::drag_of(friction, node);
-            nodes.relief[k] = Friction::depends_on_pore_pressure ? nodes.pore_pressure[k] : 0.0;
-          }
-        }
-      },
-      law.friction);
-  std::visit(
-      [&](const auto& cohesion) {
-        for (std::size_t k = 0; k < nodes.count; ++k) {
-          if (nodes.substrate[k] == substrate) {
-            nodes.cohesion[k] = cohesion.cohesion(nodes.node(k, time));
-          }
-        }
-      },
-      law.cohesion);
-}
-
-// Computes friction, cohesion and strength of all nodes. time [s].
-inline void evaluate_basal_law(const BasalLaw& law, double time, BasalNodes& nodes) {
-  const auto end = nodes.substrate.begin() + static_cast<std::ptrdiff_t>(nodes.count);
-  for (std::size_t number = 0; number < law.grounds.size(); ++number) {
-    const int substrate = static_cast<int>(number);
-    if (std::find(nodes.substrate.begin(), end, substrate) != end) {
-      evaluate_ground_law(law.grounds[number], substrate, time, nodes);
+// Calls work(node) for the nodes on one substrate that are in contact.
+template <class Work>
+void for_nodes_on(int substrate, std::span<BasalNode> nodes, const Work& work) {
+  for (BasalNode& node : nodes) {
+    if (node.area > 0.0 && node.substrate == substrate) {
+      work(node);
     }
   }
-  for (std::size_t k = 0; k < nodes.count; ++k) {
-    nodes.strength[k] = physics::sliding_strength(nodes.friction[k], nodes.normal_pressure[k], nodes.relief[k],
-                                                  nodes.cohesion[k], law.clamp, law.cap_pressure) +
-                        nodes.drag[k];
+}
+
+// Computes friction and cohesion of the nodes in contact. Laws are dispatched once, outside the loop over nodes.
+inline void evaluate_basal_law(const BasalLaw& law, std::span<BasalNode> nodes) {
+  for (std::size_t number = 0; number < law.grounds.size(); ++number) {
+    const int substrate = static_cast<int>(number);
+    std::visit(
+        [&](const auto& friction) {
+          for_nodes_on(substrate, nodes, [&](BasalNode& node) { node.set_friction(friction); });
+        },
+        law.grounds[number].friction);
+    std::visit(
+        [&](const auto& cohesion) {
+          for_nodes_on(substrate, nodes, [&](BasalNode& node) { node.cohesion = cohesion.cohesion(node.state); });
+        },
+        law.grounds[number].cohesion);
   }
 }
 

@@ -2,13 +2,10 @@
 
 #include "base/instances.hpp"
 #include "mpm/node_pass.hpp"
-#include "terrain/contact_node.hpp"
-#include "terrain/ground_on_grid.hpp"
+#include "terrain/block_step.hpp"
+#include "terrain/contact_stage.hpp"
 
 namespace thawslide::terrain {
-
-using mpm::Contact;
-using mpm::MomentumLayout;
 
 template <int Dim>
 double constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
@@ -17,20 +14,10 @@ double constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGri
   nodes.velocity.resize(grid.blocks().size());
   return parallel_sum<double>(grid.blocks().size(), [&](std::size_t b, double& work) {
     mpm::sum_block<mpm::Velocity>(grid, b, nodes);
-    const mpm::BlockConstraints<Dim> on_block(grid, constraints, b, time);
+    const BlockStep<Dim> step(grid, ground, constraints, model, time, dt, nodes, b);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-      const auto& record = nodes.momentum(b, k);
-      if (!(record[MomentumLayout<Dim>::mass] > 0.0)) {
-        continue;
-      }
-      const bool touching = ground != nullptr && nodes.contact(b, k)[Contact::touching] > 0.0;
-      GroundOfMappedBack<Dim> below{touching, model.distance_check, nullptr, 0.0};
-      if (touching) {
-        below.normal = &ground->block(b)[k].normal;
-        below.clearance = clearance_along_normal(*below.normal, nodes.near_ground(b, k)[mpm::NearGround::clearance]);
-      }
-      work += map_back<Dim>(mpm::NodeConstraints<Dim>{on_block, k}, below, gravity, dt, record, nodes.motion(b, k),
-                            nodes.velocity(b, k));
+      const bool touching = ground != nullptr && nodes.contact(b, k)[mpm::Contact::touching] > 0.0;
+      work += map_back_node(step, mpm::NodeAt{b, k}, touching, gravity);
     }
   });
 }

@@ -9,7 +9,7 @@
 namespace thawslide::terrain {
 
 // Loaded contact nodes of a step, one array per quantity. Their order is that of the blocks and of the nodes in a
-// block, independent of the number of threads. Quantities are those of BasalNodes.
+// block, independent of the number of threads. Quantities are those of BasalNode.
 struct LoadedNodes {
   double time = 0, dt = 0;       // begin and duration of the step [s]
   std::vector<double> position;  // Dim numbers per node [m], relative to the domain's lower corner

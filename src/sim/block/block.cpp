@@ -175,8 +175,8 @@ class Block {
     friction_heat_ += heat;
     displacement_ += middle * dt;
     slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
-    const BlockDrive drive{
-        heat / dt, basal_.normal_pressure[0], std::abs(middle), slip_, parameters_.band.thickness.at(time_), dt};
+    const BlockDrive drive{heat / dt, basal_.state.normal_pressure,         std::abs(middle),
+                           slip_,     parameters_.band.thickness.at(time_), dt};
     heat_gain_ += std::visit([&](auto& column) { return column.step(drive); }, column_);
     time_ += dt;
   }
@@ -196,8 +196,8 @@ class Block {
             {"front_position_m", front[0] + model_.origin[0]},
             {"travel_distance_m", onward.dot(front - rear_)},
             {"drop_height_m", top_ - up_.dot(front)},
-            {"normal_pressure_Pa", basal_.normal_pressure[0]},
-            {"pore_pressure_Pa", basal_.pore_pressure[0]},
+            {"normal_pressure_Pa", basal_.state.normal_pressure},
+            {"pore_pressure_Pa", basal_.state.pore_pressure},
             {"sliding_strength_Pa", strength_},
             {"driving_traction_Pa", direction_ * forces.along / base_area_},
             {"band_temperature_C", band.temperature},
@@ -260,27 +260,29 @@ class Block {
   // Evaluates the basal law for the current state, averaged over the ground below the slices; returns the forces on
   // them.
   Forces evaluate_base() {
+    const terrain::BasalLaw& law = model_.contact.law;
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
     const std::vector<double> fractions = place_slices();
-    basal_.count = 1;
-    basal_.normal_pressure[0] = forces.normal / slices_.base;
+    basal_.area = 1.0;
+    basal_.state.time = time_;
+    basal_.state.normal_pressure = forces.normal / slices_.base;
     const BlockBase base =
-        std::visit([&](const auto& column) { return column.base(basal_.normal_pressure[0]); }, column_);
-    basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
-    basal_.temperature[0] = base.temperature;
-    basal_.saturation[0] = base.saturation;
-    basal_.solid_fraction[0] = base.solid_fraction;
-    basal_.slip[0] = slip_;
-    basal_.speed[0] = std::abs(velocity_);
-    basal_.unit_weight[0] = model_.contact.law.gravity * slices_.mass / (slices_.thickness * slices_.base);
+        std::visit([&](const auto& column) { return column.base(basal_.state.normal_pressure); }, column_);
+    basal_.state.pore_pressure = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
+    basal_.state.temperature = base.temperature;
+    basal_.state.saturation = base.saturation;
+    basal_.state.solid_fraction = base.solid_fraction;
+    basal_.state.slip = slip_;
+    basal_.state.speed = std::abs(velocity_);
+    basal_.state.unit_weight = law.gravity * slices_.mass / (slices_.thickness * slices_.base);
     strength_ = friction_ = 0.0;
     for (std::size_t number = 0; number < fractions.size(); ++number) {
       if (fractions[number] > 0.0) {
-        basal_.substrate[0] = static_cast<int>(number);
-        evaluate_basal_law(model_.contact.law, time_, basal_);
-        strength_ += fractions[number] * basal_.strength[0];
-        friction_ += fractions[number] * basal_.friction[0];
+        basal_.substrate = static_cast<int>(number);
+        evaluate_basal_law(law, std::span(&basal_, 1));
+        strength_ += fractions[number] * basal_.strength(law.clamp, law.cap_pressure);
+        friction_ += fractions[number] * basal_.friction;
       }
     }
     return forces;
@@ -313,7 +315,7 @@ class Block {
   Vector<double, 2> up_, rear_;  // against gravity; rear end at t = 0, on the ground [m]
   double top_ = -HUGE_VAL;       // height of the highest particle at t = 0, along up_ [m]
   AnyColumn column_;
-  terrain::BasalNodes basal_;
+  terrain::BasalNode basal_;
   double base_area_ = 0;                // ground below the slices, including the valley factor [m2 per m of width]
   double strength_ = 0, friction_ = 0;  // current basal strength [Pa]; mu_e
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;

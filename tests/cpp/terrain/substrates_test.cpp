@@ -102,26 +102,31 @@ TEST(BasalLaw, DependsOnTheSubstrateOfEachNode) {
                  {CoefficientFriction{0.1}, ConstantCohesion{0.0}},
                  {ConstantFriction{1.0}, BondsCohesion{100.0, 2.0}},
                  {VoellmyFriction{0.2, 500.0}, ConstantCohesion{3.0}}};
-  BasalNodes nodes;
-  nodes.count = 6;
-  nodes.substrate = {1, 0, 2, 1, 3, 3};
-  nodes.normal_pressure.fill(1000.0);
-  nodes.pore_pressure = {400.0, 400.0, 400.0, 1500.0, 400.0, 1500.0};
-  nodes.saturation.fill(0.25);
-  nodes.slip.fill(2.0);
-  nodes.speed.fill(10.0);
-  nodes.unit_weight.fill(20.0);
-  evaluate_basal_law(law, 0.0, nodes);
-  EXPECT_DOUBLE_EQ(nodes.strength[0], 100.0) << "0.1 N, independent of P";
-  EXPECT_DOUBLE_EQ(nodes.strength[1], 310.0);
-  EXPECT_DOUBLE_EQ(nodes.strength[2], 600.0 + 75.0 * std::exp(-1.0));
-  EXPECT_DOUBLE_EQ(nodes.strength[3], 100.0);
-  EXPECT_EQ(nodes.friction[3], 0.1);
-  EXPECT_DOUBLE_EQ(nodes.strength[4], 0.2 * 600.0 + 20.0 * 100.0 / 500.0 + 3.0);
-  EXPECT_DOUBLE_EQ(nodes.strength[5], 4.0 + 3.0) << "drag where P passes N";
+  const std::array<int, 6> substrates{1, 0, 2, 1, 3, 3};
+  const std::array<double, 6> pore_pressures{400.0, 400.0, 400.0, 1500.0, 400.0, 1500.0};
+  std::array<BasalNode, 6> nodes;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    nodes[k].area = 1.0;
+    nodes[k].substrate = substrates[k];
+    nodes[k].state.normal_pressure = 1000.0;
+    nodes[k].state.pore_pressure = pore_pressures[k];
+    nodes[k].state.saturation = 0.25;
+    nodes[k].state.slip = 2.0;
+    nodes[k].state.speed = 10.0;
+    nodes[k].state.unit_weight = 20.0;
+  }
+  const auto strength = [&](std::size_t k) { return nodes[k].strength(law.clamp, law.cap_pressure); };
+  evaluate_basal_law(law, nodes);
+  EXPECT_DOUBLE_EQ(strength(0), 100.0) << "0.1 N, independent of P";
+  EXPECT_DOUBLE_EQ(strength(1), 310.0);
+  EXPECT_DOUBLE_EQ(strength(2), 600.0 + 75.0 * std::exp(-1.0));
+  EXPECT_DOUBLE_EQ(strength(3), 100.0);
+  EXPECT_EQ(nodes[3].friction, 0.1);
+  EXPECT_DOUBLE_EQ(strength(4), 0.2 * 600.0 + 20.0 * 100.0 / 500.0 + 3.0);
+  EXPECT_DOUBLE_EQ(strength(5), 4.0 + 3.0) << "drag where P passes N";
   law.clamp = physics::FrictionClamp::joint;
-  evaluate_basal_law(law, 0.0, nodes);
-  EXPECT_DOUBLE_EQ(nodes.strength[5], 4.0) << "excess pressure cancels cohesion, not drag";
+  evaluate_basal_law(law, nodes);
+  EXPECT_DOUBLE_EQ(strength(5), 4.0) << "excess pressure cancels cohesion, not drag";
 }
 
 }  // namespace

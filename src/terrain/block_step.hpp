@@ -1,0 +1,76 @@
+// Nodes of a block in a step on the CPU (terrain/contact_stage.hpp).
+#pragma once
+
+#include "mpm/constraints.hpp"
+#include "terrain/contact.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::terrain {
+
+// Records of nodes.
+template <int Dim>
+struct NodesOfGrid {
+  mpm::Nodes<Dim>& all;
+
+  [[nodiscard]] const double* averages_at(const mpm::NodeAt& at) const { return all.averages(at).data(); }
+  [[nodiscard]] const double* state_at(const mpm::NodeAt& at) const { return all.state(at).data(); }
+  [[nodiscard]] const double* momentum_at(const mpm::NodeAt& at) const { return all.momentum(at).data(); }
+  [[nodiscard]] const double* near_ground_at(const mpm::NodeAt& at) const { return all.near_ground(at).data(); }
+  [[nodiscard]] const double* base_at(const mpm::NodeAt& at) const { return all.base(at).data(); }
+  [[nodiscard]] double* contact_at(const mpm::NodeAt& at) const {
+    return all.contact.of_block(at.block)[at.node].data();
+  }
+  [[nodiscard]] double* motion_at(const mpm::NodeAt& at) const { return all.motion(at).data(); }
+  [[nodiscard]] double* velocity_at(const mpm::NodeAt& at) const { return all.velocity(at).data(); }
+};
+
+template <int Dim>
+class BlockStep {
+ public:
+  static constexpr int dim = Dim;
+
+  // ground: null if there is none.
+  BlockStep(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, const mpm::Constraints<Dim>& constraints,
+            const ContactModel<Dim>& model, double time, double dt, mpm::Nodes<Dim>& of_grid, std::size_t block)
+      : nodes{of_grid},
+        time(time),
+        dt(dt),
+        mass_damping(model.mass_damping),
+        distance_check(model.distance_check),
+        pore_pressure(model.pore_pressure),
+        block(block),
+        candidates(ground != nullptr ? ground->candidates(block) : 0),
+        grid_(grid),
+        ground_(ground),
+        width_(model.width),
+        constraints_(grid, constraints, block, time) {}
+
+  NodesOfGrid<Dim> nodes;
+  double time, dt, mass_damping;
+  bool distance_check, pore_pressure;
+  std::size_t block;
+  std::size_t candidates;  // its first nodes (GroundOnGrid)
+
+  [[nodiscard]] mpm::NodeConstraints<Dim> walls(const mpm::NodeAt& at) const { return {constraints_, at.node}; }
+  [[nodiscard]] const GroundAtNode<Dim>& ground(const mpm::NodeAt& at) const {
+    return ground_->block(at.block)[at.node];
+  }
+  [[nodiscard]] double space(const mpm::NodeAt& at) const {
+    const double cell = grid_.cell();
+    return (Dim == 2 ? width_.at(mpm::node_position(grid_, at.block, at.node)[0]) : cell) * cell * cell;
+  }
+  bool find_above(const mpm::NodeAt& at, int step, mpm::NodeAt& found) const {
+    const auto adjacent = mpm::Tile<Dim>::adjacent(static_cast<int>(at.node), Dim - 1, step);
+    const std::int32_t other = grid_.blocks_about_block(at.block)[adjacent.direction];
+    found = {static_cast<std::size_t>(other), static_cast<std::size_t>(adjacent.local)};
+    return other != KeyIndex::absent;
+  }
+
+ private:
+  const mpm::SparseGrid<Dim>& grid_;
+  const GroundOnGrid<Dim>* ground_;
+  const mpm::SectionWidth& width_;
+  mpm::BlockConstraints<Dim> constraints_;
+};
+
+}  // namespace thawslide::terrain
