@@ -25,20 +25,13 @@ void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particle
 template <int Dim>
 double rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, double thickness,
                     mpm::Particles<Dim>& particles, std::size_t first) {
-  const bool by_slope = thickness > 0.0 && grid.mapping().has_ground;
-  const double of_a_cell = thickness > 0.0 ? grid.cell() / thickness : 1.0;
-  const auto scaling_at = [&](std::uint32_t p) {
-    if (model.region != BandRegion::all && particles.in_band(p) == 0) {
-      return 1.0;
-    }
-    return by_slope ? layer_along_normal<Dim>(grid.cell(), particles, p) / thickness : of_a_cell;
-  };
+  const BandScaling<Dim> scaling{model.region == BandRegion::all, grid.mapping().has_ground, grid.cell(), thickness};
   return parallel_sum<double>(grid.tiles().size(), [&](std::size_t t, double& added) {
     with_particle_heat(model, [&](const auto& law) {
       for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
         const std::uint32_t p = grid.order()[k];
         if (p >= first) {
-          rescale_particle(model, law, model.pressure, scaling_at(p), p, particles, added);
+          rescale_particle(model, law, model.pressure, scaling.of(particles, p), p, particles, added);
         }
       }
     });

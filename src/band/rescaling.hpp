@@ -17,6 +17,22 @@ THAWSLIDE_HD double layer_along_normal(double cell, const Particles& particles, 
   return cell / sqrt(square);
 }
 
+// Scaling xi of particles. thickness: of the band; 0: there is none.
+template <int Dim>
+struct BandScaling {
+  bool everywhere;         // also outside the band
+  bool follows_ground;     // layers of cells follow the ground
+  double cell, thickness;  // [m]
+
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD double of(const Particles& particles, std::uint32_t p) const {
+    if (!(thickness > 0.0) || !(everywhere || particles.in_band(p) != 0)) {
+      return 1.0;
+    }
+    return (follows_ground ? layer_along_normal<Dim>(cell, particles, p) : cell) / thickness;
+  }
+};
+
 // Mixes the water of a particle's part of the band with that of joining material in its state at t = 0. kept: fraction
 // of the previous band. before, joining: temperatures [C]. Melted material swells or contracts on the way to the
 // temperature of the mixture.

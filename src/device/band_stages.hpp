@@ -49,17 +49,12 @@ class BandStages {
   }
 
   void rescale(double time) {
-    const double thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
+    const double thickness = passes_.model.band_thickness(time);
     passes_.backend.for_each(1, Fill<double>{&sums_->band_rescale, 0.0});
-    if (passes_.model.mapping.has_ground && thickness > 0.0) {
-      rescale_by(ScalingBySlope<Dim>{cell, thickness});
-      scaling_in_force_ = 0.0;  // reset, because the scaling varies in space
-      return;
-    }
-    const double scaling = thickness > 0.0 ? cell / thickness : 1.0;
-    if (!passes_.model.scales_all || scaling != scaling_in_force_) {
-      scaling_in_force_ = scaling;
-      rescale_by(OneScaling{scaling});
+    const bool depends_on_position = !passes_.model.scales_all || passes_.model.mapping.has_ground;
+    if (depends_on_position || thickness != band_thickness_) {
+      band_thickness_ = thickness;
+      std::visit([&](const auto& content) { rescale_by(content, thickness); }, passes_.model.heat_content);
     }
   }
 
@@ -92,16 +87,14 @@ class BandStages {
   [[nodiscard]] band::HydraulicConductivity hydraulic() const { return {hydraulic_.data(), hydraulic_.size() == 1}; }
 
  private:
-  template <class Scaling>
-  void rescale_by(const Scaling& scaling) {
-    std::visit(
-        [&]<class Content>(const Content& content) {
-          using Kernel = RescaleBand<Dim, Content, Scaling>;
-          const Kernel kernel{content, passes_.model.band, passes_.model.pressure_changes, passes_.model.scales_all,
-                              scaling};
-          passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->band_rescale);
-        },
-        passes_.model.heat_content);
+  template <class Content>
+  void rescale_by(const Content& content, double thickness) {
+    using Kernel = RescaleBand<Dim, Content>;
+    const Kernel kernel{content,
+                        passes_.model.band,
+                        passes_.model.pressure_changes,
+                        {passes_.model.scales_all, passes_.model.mapping.has_ground, passes_.model.cell, thickness}};
+    passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->band_rescale);
   }
   template <class Content>
   void conduct_heat_by(const Content& content, double dt) {
@@ -193,7 +186,7 @@ class BandStages {
   BodySizes<Backend> sizes_;  // half sizes of particles [m]
   band::SlideColumns<Backend, Dim> columns_;
   exec::Array<double, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
-  double scaling_in_force_ = 0;
+  double band_thickness_ = -1.0;  // of the last scaling [m]
 };
 
 }  // namespace thawslide::device

@@ -8,28 +8,8 @@
 
 namespace thawslide::device {
 
-// Scaling xi of particles in the band: uniform, or from the thickness of the layer of cells along its normal.
-struct OneScaling {
-  double scaling;
-
-  [[nodiscard]] THAWSLIDE_HD OneScaling in_tile(std::size_t /*tile*/) const { return *this; }
-  template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD double of(const Particles& /*particles*/, std::uint32_t /*p*/) const {
-    return scaling;
-  }
-};
-template <int Dim>
-struct ScalingBySlope {
-  double cell, thickness;  // of the grid and of the band [m]
-
-  [[nodiscard]] THAWSLIDE_HD ScalingBySlope in_tile(std::size_t /*tile*/) const { return *this; }
-  template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD double of(const Particles& particles, std::uint32_t p) const {
-    return band::layer_along_normal<Dim>(cell, particles, p) / thickness;
-  }
-};
-// Sets the scaling of particles in the band, or of all particles; sums the heat that the change of scaling adds.
-template <int Dim, class Content, class Scaling>
+// Sets the scaling of particles; sums the heat that the change of scaling adds.
+template <int Dim, class Content>
 struct RescaleBand {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
   using Reads = mpm::RecordList<>;
@@ -38,20 +18,15 @@ struct RescaleBand {
 
   Content content;
   band::BandPhysics physics;
-  bool has_water, scales_all;
-  Scaling in_band;
-
-  [[nodiscard]] THAWSLIDE_HD RescaleBand in_tile(std::size_t tile) const {
-    return {content, physics, has_water, scales_all, in_band.in_tile(tile)};
-  }
+  bool has_water;
+  band::BandScaling<Dim> scaling;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                double& added_heat) const {
     const std::uint32_t p = at.particle[0];
     const Law law{content};
-    const double scaling = scales_all || particles.in_band(p) != 0 ? in_band.of(particles, p) : 1.0;
-    band::rescale_particle(physics, law, has_water, scaling, p, particles, added_heat);
+    band::rescale_particle(physics, law, has_water, scaling.of(particles, p), p, particles, added_heat);
   }
 };
 
