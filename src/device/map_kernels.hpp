@@ -118,17 +118,4 @@ struct SumMapInTile {
   }
 };
 
-// Mass of a particle and its moments: a kernel (mpm/kernel.hpp).
-struct SumMoments {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = mpm::MassMoments;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Totals& sums) const {
-    sums = mpm::mass_moments_of(particles, at.particle[0]);
-  }
-};
-
 }  // namespace thawslide::device

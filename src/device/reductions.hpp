@@ -4,57 +4,45 @@
 #include "band/body_sums.hpp"
 #include "band/step_extremes.hpp"
 #include "mpm/kernel.hpp"
-#include "mpm/monitor_sums.hpp"
+#include "mpm/map_sums.hpp"
 
 namespace thawslide::device {
 
-// Sums for the run monitor (failure checks, rest).
-template <int Dim>
-struct RunMonitor {
+// Sum of a function of one particle, of(particles, particle).
+template <class Sum, class Of>
+struct SumOf {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Totals = mpm::MonitorSums;
+  using Totals = Sum;
 
-  mpm::MonitorKernel<Dim> kernel;
+  Of of;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Totals& sums) const {
-    sums = kernel(particles, at.particle[0]);
+    sums = of(particles, at.particle[0]);
   }
 };
 
 // Extremes that determine the next step.
 template <int Dim>
-struct FindExtremes {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = band::StepExtremes;
-
+struct ExtremesOf {
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
   band::FreeGaps free_gaps;
 
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Totals& found) const {
-    found = band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, at.particle[0]);
+  template <class Particles>
+  THAWSLIDE_HD band::StepExtremes operator()(const Particles& particles, std::uint32_t p) const {
+    return band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, p);
   }
 };
-
-// Sums for history rows.
 template <int Dim>
-struct SumOverBody {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = band::BodySums<Dim>;
+using FindExtremes = SumOf<band::StepExtremes, ExtremesOf<Dim>>;
 
-  band::SumsOfParticle<Dim> of_particle;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Totals& sums) const {
-    sums = of_particle(particles, at.particle[0]);
+struct MomentsOf {
+  template <class Particles>
+  THAWSLIDE_HD mpm::MassMoments operator()(const Particles& particles, std::uint32_t p) const {
+    return mpm::mass_moments_of(particles, p);
   }
 };
 

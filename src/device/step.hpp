@@ -159,14 +159,14 @@ class Step {
 
   band::StepExtremes extremes() {
     find_cells();
-    return passes_.sum_over_particles(extremes_kernel(), extremes_);
+    return passes_.sum_over_particles(extremes_kernel().of, extremes_);
   }
   // Reductions over the particles after a step.
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) {
-    return passes_.sum_over_particles(RunMonitor<Dim>{kernel}, monitored_);
+    return passes_.sum_over_particles(kernel, monitored_);
   }
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) {
-    return passes_.sum_over_particles(SumOverBody<Dim>{of_particle}, body_);
+    return passes_.sum_over_particles(of_particle, body_);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) {
     return front_.find(path, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
@@ -177,7 +177,7 @@ class Step {
   }
   void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
     if constexpr (Dim == 3) {
-      sample.moments = passes_.sum_over_particles(SumMoments{}, moments_);
+      sample.moments = passes_.sum_over_particles(MomentsOf{}, moments_);
       maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), sample);
     }
   }
@@ -323,7 +323,7 @@ class Step {
             static_cast<double>(passes_.model.cell)};
   }
   [[nodiscard]] FindExtremes<Dim> extremes_kernel() const {
-    return {passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
+    return {{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}}};
   }
   [[nodiscard]] CountEscaped<Dim> escape_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,

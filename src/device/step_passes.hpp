@@ -8,6 +8,7 @@
 #include "device/marks.hpp"
 #include "device/node_memory.hpp"
 #include "device/particles.hpp"
+#include "device/reductions.hpp"
 #include "device/tile_tables.hpp"
 #include "terrain/near_ground_kernel.hpp"
 
@@ -72,9 +73,11 @@ class StepPasses {
     backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim>{cells.tables(), accepts, memory.patches(0),
                                                                             of<Name>().data()});
   }
-  template <class Kernel, class Sum>
-  Sum sum_over_particles(const Kernel& kernel, exec::Array<Sum, Backend>& sum) {
-    keep(&run(linear(), kernel)->template of<Kernel>(), sum.data());
+  // of: as in SumOf.
+  template <class Of, class Sum>
+  Sum sum_over_particles(const Of& of, exec::Array<Sum, Backend>& sum) {
+    using Kernel = SumOf<Sum, Of>;
+    keep(&run(linear(), Kernel{of})->template of<Kernel>(), sum.data());
     return sum.get(0);
   }
   // Copies a sum from memory that the next pass reuses.
