@@ -44,17 +44,11 @@ struct CoverBed {
  private:
   THAWSLIDE_HD void cover(std::size_t tile, std::uint32_t particle) const {
     const double half = sizes.half[sizes.is_uniform ? 0 : static_cast<std::size_t>(particles.body(particle))];
-    std::array<terrain::PartsCovered, 2> along{};  // in 2D, the second axis is one part wide
-    for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      along[a] = terrain::parts_covered(particles.position(particle, static_cast<int>(a)), half, cell);
-    }
-    for (int y = along[1].first; y <= along[1].last; ++y) {
-      for (int x = along[0].first; x <= along[0].last; ++x) {
-        if (x >= 0 && y >= 0) {
-          cover(tile, std::array<int, 2>{x, y});
-        }
+    terrain::for_covered_parts<Dim>(particles, particle, half, cell, [&](const std::array<int, 2>& part) {
+      if (part[0] >= 0 && part[1] >= 0) {
+        cover(tile, part);
       }
-    }
+    });
   }
   THAWSLIDE_HD void cover(std::size_t tile, const std::array<int, 2>& part) const {
     constexpr int parts = terrain::bed_parts;

@@ -44,10 +44,10 @@ typename Bed<Dim>::Column Bed<Dim>::column_at(std::size_t number) const {
 }
 
 template <int Dim>
-void Bed<Dim>::cover_part(const Column& part) {
+void Bed<Dim>::cover_part(const std::array<int, 2>& part) {
   Column column{};
   int bit = 0;
-  for (std::size_t a = part.size(); a-- > 0;) {
+  for (std::size_t a = column.size(); a-- > 0;) {
     column[a] = part[a] >= 0 ? part[a] / bed_parts : -1;
     bit = bit * bed_parts + part[a] % bed_parts;
   }
@@ -67,22 +67,7 @@ void Bed<Dim>::cover(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const double half = sizes.half(static_cast<std::size_t>(particles.body(p)));
-      Column first{}, last{};
-      for (std::size_t a = 0; a < first.size(); ++a) {
-        const PartsCovered along = parts_covered(particles.position(p, static_cast<int>(a)), half, grid.cell());
-        first[a] = along.first;
-        last[a] = along.last;
-      }
-      Column part = first;
-      for (part[0] = first[0]; part[0] <= last[0]; ++part[0]) {
-        if constexpr (Dim == 3) {
-          for (part[1] = first[1]; part[1] <= last[1]; ++part[1]) {
-            cover_part(part);
-          }
-        } else {
-          cover_part(part);
-        }
-      }
+      for_covered_parts<Dim>(particles, p, half, grid.cell(), [&](const auto& part) { cover_part(part); });
     }
   }
 }

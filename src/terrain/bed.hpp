@@ -88,7 +88,7 @@ class Bed {
   void restore(const std::vector<double>& numbers);
 
  private:
-  void cover_part(const Column& part);
+  void cover_part(const std::array<int, 2>& part);
   [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim>& grid, std::size_t block, std::size_t node) const;
   [[nodiscard]] Column column_at(std::size_t number) const;
 

@@ -1,6 +1,7 @@
 // Entrainment of the bed by one node, and bed parts covered by a particle. For host and device.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -35,6 +36,23 @@ inline THAWSLIDE_HD PartsCovered parts_covered(double position, double half, dou
   const double middle = (position / cell + 0.5) * bed_parts - 0.5;
   const double reach = half * bed_parts;
   return {static_cast<int>(ceil(middle - reach)), static_cast<int>(floor(middle + reach))};
+}
+
+// Calls visit(part) for the parts whose centres a particle's box reaches; part: index along each horizontal axis. Parts
+// outside the domain have negative indices or large ones. half: of the box, in cells.
+template <int Dim, class Particles, class Visit>
+THAWSLIDE_HD void for_covered_parts(const Particles& particles, std::uint32_t p, double half, double cell,
+                                    const Visit& visit) {
+  const PartsCovered x = parts_covered(particles.position(p, 0), half, cell);
+  PartsCovered y{0, 0};
+  if constexpr (Dim == 3) {
+    y = parts_covered(particles.position(p, 1), half, cell);
+  }
+  for (int row = y.first; row <= y.last; ++row) {
+    for (int column = x.first; column <= x.last; ++column) {
+      visit(std::array<int, 2>{column, row});
+    }
+  }
 }
 
 // Entrainment by a node of a mass [kg] that slides at `speed` > 0 [m/s] after friction with the strength `shear` [Pa].
