@@ -1,0 +1,73 @@
+// The executor on the CPU, and sums by key on it.
+#include "exec/cpu.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "exec/keyed_parts.hpp"
+
+namespace thawslide::exec {
+namespace {
+
+// Some of few keys, which differ in their highest and lowest bits.
+std::uint64_t key_of(std::size_t place) { return (place * place % 7) << 61 | (place % 3) << 32 | place % 2; }
+
+TEST(Cpu, SortsByAllBitsAndKeepsTheOrderOfEqualKeys) {
+  for (const std::size_t count : {0u, 1u, 500u}) {
+    std::vector<std::uint64_t> keys(count), sorted_keys(count);
+    std::vector<std::uint32_t> values(count), sorted(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      keys[k] = key_of(k);
+      values[k] = static_cast<std::uint32_t>(k);
+    }
+    Cpu().sort(keys.data(), values.data(), sorted_keys.data(), sorted.data(), count);
+    for (std::size_t k = 0; k < count; ++k) {
+      ASSERT_EQ(sorted_keys[k], key_of(sorted[k]));
+      if (k > 0) {
+        ASSERT_LE(sorted_keys[k - 1], sorted_keys[k]);
+        ASSERT_TRUE(sorted_keys[k - 1] < sorted_keys[k] || sorted[k - 1] < sorted[k]) << "place " << k;
+      }
+    }
+  }
+}
+
+// A sum that depends on its order.
+struct Word {
+  std::uint64_t letters = 1;
+  Word& operator+=(const Word& part) {
+    letters = 31 * letters + part.letters;
+    return *this;
+  }
+};
+
+struct KeyOf {
+  std::uint64_t operator()(std::size_t place) const { return key_of(place); }
+};
+
+TEST(KeyedParts, AreAddedInTheOrderOfTheirPlaces) {
+  constexpr std::size_t places = 5000;
+  Cpu cpu;
+  KeyedParts<Word, Cpu> parts(cpu);
+  parts.list(places, KeyOf{});
+  for (std::size_t k = 0; k < places; ++k) {
+    parts.parts()[k] = {k};
+  }
+  parts.sum();
+  Array<std::int32_t, Cpu> index(cpu);
+  parts.index_places(index);
+  const std::vector<std::uint64_t> keys = parts.keys().get();
+  std::vector<Word> expected(keys.size());
+  for (std::size_t k = 0; k < places; ++k) {
+    const auto of_key = static_cast<std::size_t>(index.data()[k]);
+    ASSERT_EQ(keys.at(of_key), key_of(k));
+    expected[of_key] += {k};
+  }
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    EXPECT_EQ(parts.sums()[c].letters, expected[c].letters);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::exec
