@@ -109,6 +109,14 @@ class Simd {
     *reinterpret_cast<typename LaneRegister<T, Count>::Stored*>(numbers) = native_;
   }
 
+  // Loads and stores `count` consecutive numbers of any alignment.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load_unaligned(const T* numbers) {
+    Native native;
+    std::memcpy(&native, numbers, sizeof native);
+    return Simd(native);
+  }
+  THAWSLIDE_ALWAYS_INLINE void store_unaligned(T* numbers) const { std::memcpy(numbers, &native_, sizeof native_); }
+
   // Loads and stores `count` consecutive integers, with conversion.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load_whole(const std::int32_t* numbers) {
     return Simd(__builtin_convertvector(whole_lanes<T, Count>(numbers), Native));

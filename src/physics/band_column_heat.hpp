@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 
 #include "physics/band_column.hpp"
 #ifndef __CUDACC__
@@ -20,15 +19,8 @@ THAWSLIDE_HD inline void store_cells(CellLanes lanes, double* numbers) { *number
 #else
 using CellLanes = Simd<double, 4>;
 inline constexpr int cell_lanes = 4;
-inline CellLanes load_cells(const double* numbers) {  // of any alignment
-  CellLanes::Native lanes;
-  std::memcpy(&lanes, numbers, sizeof lanes);
-  return CellLanes(lanes);
-}
-inline void store_cells(CellLanes lanes, double* numbers) {
-  const CellLanes::Native of_lanes = lanes.native();
-  std::memcpy(numbers, &of_lanes, sizeof of_lanes);
-}
+inline CellLanes load_cells(const double* numbers) { return CellLanes::load_unaligned(numbers); }
+inline void store_cells(CellLanes lanes, double* numbers) { lanes.store_unaligned(numbers); }
 #endif
 static_assert(ColumnCells::slide % cell_lanes == 0);
 
