@@ -41,7 +41,7 @@ class BlockStep {
         block(block),
         candidates(ground != nullptr ? ground->candidates(block) : 0),
         grid_(grid),
-        ground_(ground),
+        known_(candidates > 0 ? &ground->block(block) : nullptr),
         width_(model.width),
         constraints_(grid, constraints, block, time) {}
 
@@ -52,9 +52,7 @@ class BlockStep {
   std::size_t candidates;  // its first nodes (GroundOnGrid)
 
   [[nodiscard]] mpm::NodeConstraints<Dim> walls(const mpm::NodeAt& at) const { return {constraints_, at.node}; }
-  [[nodiscard]] const GroundAtNode<Dim>& ground(const mpm::NodeAt& at) const {
-    return ground_->block(at.block)[at.node];
-  }
+  [[nodiscard]] const GroundAtNode<Dim>& ground(const mpm::NodeAt& at) const { return (*known_)[at.node]; }
   [[nodiscard]] double space(const mpm::NodeAt& at) const {
     const double cell = grid_.cell();
     return (Dim == 2 ? width_.at(mpm::node_position(grid_, at.block, at.node)[0]) : cell) * cell * cell;
@@ -68,7 +66,7 @@ class BlockStep {
 
  private:
   const mpm::SparseGrid<Dim>& grid_;
-  const GroundOnGrid<Dim>* ground_;
+  const typename GroundOnGrid<Dim>::Block* known_;  // ground at the nodes of the block
   const mpm::SectionWidth& width_;
   mpm::BlockConstraints<Dim> constraints_;
 };

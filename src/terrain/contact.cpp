@@ -41,7 +41,9 @@ void find_contact(const BlockStep<Dim>& step, double cell, const ContactModel<Di
       contact.base.push_back(base);
     }
   }
-  evaluate_basal_law(model.law, contact.base);
+  if (!contact.base.empty()) {
+    evaluate_basal_law(model.law, contact.base);
+  }
 }
 
 // Initializes a block without contact. known: ground at its nodes.

@@ -11,22 +11,22 @@
 namespace thawslide::terrain {
 
 template <class Step, class Node>
-THAWSLIDE_HD bool has_mass(const Step& step, const Node& node) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool has_mass(const Step& step, const Node& node) {
   return step.nodes.momentum_at(node)[mpm::MomentumLayout<Step::dim>::mass] > 0.0;
 }
 template <class Step, class Node>
-THAWSLIDE_HD NodeState<Step::dim> trial_of(const Step& step, const Node& node) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE NodeState<Step::dim> trial_of(const Step& step, const Node& node) {
   return trial_state<Step::dim>(step.walls(node), step.dt, step.mass_damping, step.nodes.momentum_at(node));
 }
 // Clearance of a candidate node along the normal of the ground [m].
 template <class Step, class Node>
-THAWSLIDE_HD double clearance_of(const Step& step, const Node& node) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double clearance_of(const Step& step, const Node& node) {
   return clearance_along_normal(step.ground(node).normal, step.nodes.near_ground_at(node)[mpm::NearGround::clearance]);
 }
 
 // Load of a candidate node on the ground [kg m/s].
 template <class Step, class Node>
-THAWSLIDE_HD double load_on_ground(const Step& step, const Node& node) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double load_on_ground(const Step& step, const Node& node) {
   if (!has_mass(step, node)) {
     return 0.0;
   }
@@ -38,7 +38,7 @@ THAWSLIDE_HD double load_on_ground(const Step& step, const Node& node) {
 
 // Ground area that the sliding mass covers at a node [m2].
 template <class Step, class Node>
-THAWSLIDE_HD double covered_ground(const Step& step, const Node& node) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double covered_ground(const Step& step, const Node& node) {
   const double area = step.ground(node).area;
   return !(area > 0.0) ? 0.0 : area * covered_fraction(step.space(node), [&](int above) {
                                  Node other = node;
@@ -52,8 +52,9 @@ THAWSLIDE_HD double covered_ground(const Step& step, const Node& node) {
 // reads_mass: off: no law depends on the state of the sliding mass. columns: record of BaseState; null without band
 // columns.
 template <class Step, class Node>
-THAWSLIDE_HD void gather_basal_node(const Step& step, const Node& node, double smallest_area, double gravity,
-                                    bool reads_mass, const double* columns, BasalNode& base) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void gather_basal_node(const Step& step, const Node& node, double smallest_area,
+                                                            double gravity, bool reads_mass, const double* columns,
+                                                            BasalNode& base) {
   using mpm::BaseLayout;
   constexpr int Dim = Step::dim;
   base.area = 0.0;
@@ -84,9 +85,9 @@ THAWSLIDE_HD void gather_basal_node(const Step& step, const Node& node, double s
 
 // Applies contact to a loaded node. strength: of the base [Pa].
 template <class Step, class Node, class FromBed>
-THAWSLIDE_HD void touch_ground(const Step& step, const Node& node, const BasalNode& base, double strength,
-                               double heat_fraction, const FromBed& bed, NodeState<Step::dim>& state,
-                               ContactWork<Step::dim>& work) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void touch_ground(const Step& step, const Node& node, const BasalNode& base,
+                                                       double strength, double heat_fraction, const FromBed& bed,
+                                                       NodeState<Step::dim>& state, ContactWork<Step::dim>& work) {
   const auto& ground = step.ground(node);
   const ContactConditions<Step::dim> conditions{
       ground.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], ground.bend, base.area, strength, base.friction};
@@ -97,8 +98,9 @@ THAWSLIDE_HD void touch_ground(const Step& step, const Node& node, const BasalNo
 // Stores the motion of a node with its final momentum. The force on a node of a held body counts as one of the ground,
 // which holds it.
 template <class Step, class Node>
-THAWSLIDE_HD void store_motion(const Step& step, const Node& node, const NodeState<Step::dim>& state,
-                               ContactWork<Step::dim>& work) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void store_motion(const Step& step, const Node& node,
+                                                       const NodeState<Step::dim>& state,
+                                                       ContactWork<Step::dim>& work) {
   const auto walls = step.walls(node);
   auto* motion = step.nodes.motion_at(node);
   finish_node<Step::dim>(state, walls.any(), step.mass_damping, step.dt, work, motion);
@@ -110,8 +112,8 @@ THAWSLIDE_HD void store_motion(const Step& step, const Node& node, const NodeSta
 
 // Maps back the velocity of a node; returns the work as map_back does. touching: in contact with the ground.
 template <class Step, class Node>
-THAWSLIDE_HD double map_back_node(const Step& step, const Node& node, bool touching,
-                                  const Vector<double, Step::dim>& gravity) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double map_back_node(const Step& step, const Node& node, bool touching,
+                                                          const Vector<double, Step::dim>& gravity) {
   if (!has_mass(step, node)) {
     return 0.0;
   }
