@@ -10,7 +10,8 @@ namespace {
 
 // Bed in the polygons of a substrate, as comments, since a case has one bed and most slides entrain none.
 std::string bed_in_comments(const std::string& outline) {
-  return fmt::format(R"(# An erodible bed in these polygons: remove the first # of each line below. All values are assumed.
+  return fmt::format(
+      R"(# An erodible bed in these polygons: remove the first # of each line below. All values are assumed.
 # [bed]
 # law = "momentum"
 # outline = {}
@@ -22,7 +23,7 @@ std::string bed_in_comments(const std::string& outline) {
 # temperature = -5.0  # C
 # porosity = 0.375  # volume fraction of ice and water
 )",
-                     quoted(outline));
+      quoted(outline));
 }
 
 }  // namespace
