@@ -57,25 +57,17 @@ THAWSLIDE_HD Vector<double, Dim> position_of_node(const std::uint64_t* block_key
   return position;
 }
 
-// Faces of the domain at one node.
+// Prescribed motion at one node.
 template <int Dim>
-struct FacesAtNode {
-  const mpm::DomainFaces<Dim>& faces;
+struct WallsOfNode {
+  const mpm::PrescribedMotion<Dim>& motion;
   Vector<double, Dim> position;
+  double time;
 
-  [[nodiscard]] THAWSLIDE_HD bool any() const {
-    for (int a = 0; a < Dim; ++a) {
-      if ((faces.at_lower(position[a], a) && faces.faces[2 * a] != mpm::BoundaryKind::open) ||
-          (faces.at_upper(position[a], a) && faces.faces[2 * a + 1] != mpm::BoundaryKind::open)) {
-        return true;
-      }
-    }
-    return false;
-  }
+  [[nodiscard]] THAWSLIDE_HD bool any() const { return motion.may_apply(position, position, time); }
   [[nodiscard]] THAWSLIDE_HD bool is_held() const { return false; }
-  THAWSLIDE_HD bool apply(double /*mass*/, Vector<double, Dim>& momentum) const {
-    faces.apply_faces(position, momentum);
-    return false;
+  THAWSLIDE_HD bool apply(double mass, Vector<double, Dim>& momentum) const {
+    return motion.apply(position, mass, time, momentum);
   }
 };
 
@@ -87,13 +79,13 @@ struct NodeStageArgs {
 
   TileTables<Dim> tables;
   NodeViews<Dim> nodes;
-  mpm::DomainFaces<Dim> faces;
+  mpm::PrescribedMotion<Dim> motion;
   Vector<double, Dim> gravity;
   double cell, mass_damping, time, dt;
   bool distance_check, pore_pressure, base_is_fixed;
 
-  [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
-    return {faces, position_of_node<Dim>(tables.block_keys, node, cell)};
+  [[nodiscard]] THAWSLIDE_HD WallsOfNode<Dim> walls(std::size_t node) const {
+    return {motion, position_of_node<Dim>(tables.block_keys, node, cell), time};
   }
   [[nodiscard]] THAWSLIDE_HD const terrain::GroundAtNode<Dim>& ground(std::size_t node) const {
     return nodes.known[node];

@@ -12,10 +12,10 @@
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"
 #include "device/step_sums.hpp"
-#include "mpm/domain_faces.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/mapping.hpp"
 #include "mpm/material.hpp"
+#include "mpm/prescribed_motion.hpp"
 #include "mpm/records.hpp"
 #include "mpm/shape.hpp"
 #include "mpm/tile.hpp"
@@ -47,6 +47,7 @@ struct StepModel {
   bool effective_stress = false;  // pore pressure also acts inside the body
   bool lubrication = true;        // off: the base uses the initial porosity and saturation
   mpm::DomainFaces<Dim> faces;
+  std::vector<mpm::RigidFrame<Dim>> frames;
   Vector<double, Dim> lower, upper;  // bounds of particle positions [m]
   bool finds_extremes = false;       // StepSums::extremes is required
   bool counts_escaped = false;       // StepSums::escapes is required

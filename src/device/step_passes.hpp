@@ -28,7 +28,9 @@ class StepPasses {
         particles(used, of_cpu, count),
         cells(used, known.cell, known.mapping),
         ground(used, query_ground),
-        sizes_(used, known.half_sizes, 1.0) {}
+        sizes_(used, known.half_sizes, 1.0) {
+    frames_.set(known.frames);
+  }
   StepPasses(const StepPasses&) = delete;
   StepPasses& operator=(const StepPasses&) = delete;
 
@@ -92,8 +94,17 @@ class StepPasses {
   }
   [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
   [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(double time, double dt) {
-    return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,         model.mass_damping,
-            time,           dt,      model.distance_check, model.pore_pressure, model.base_is_fixed};
+    return {cells.tables(),
+            views(),
+            {model.faces, frames_.data(), frames_.size()},
+            model.gravity,
+            model.cell,
+            model.mass_damping,
+            time,
+            dt,
+            model.distance_check,
+            model.pore_pressure,
+            model.base_is_fixed};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).
@@ -108,6 +119,7 @@ class StepPasses {
 
  private:
   BodySizes<Backend> sizes_;
+  exec::Array<mpm::RigidFrame<Dim>, Backend> frames_{backend};
 };
 
 // Work provides visit(node, part), which fills the part of one node (numbered over all blocks), and add(parts, count,

@@ -17,6 +17,16 @@ struct DomainFaces {
   [[nodiscard]] THAWSLIDE_HD bool at_lower(double along, int a) const { return along <= round_off * extent[a]; }
   [[nodiscard]] THAWSLIDE_HD bool at_upper(double along, int a) const { return along >= extent[a] * (1.0 - round_off); }
 
+  // True if a prescribed face may be at positions between two corners.
+  [[nodiscard]] THAWSLIDE_HD bool meet(const Vector<double, Dim>& lower, const Vector<double, Dim>& upper) const {
+    for (int a = 0; a < Dim; ++a) {
+      if ((at_lower(lower[a], a) && faces[2 * a] != BoundaryKind::open) ||
+          (at_upper(upper[a], a) && faces[2 * a + 1] != BoundaryKind::open)) {
+        return true;
+      }
+    }
+    return false;
+  }
   // Sets the prescribed components of the momentum of a node at a position.
   THAWSLIDE_HD void apply_faces(const Vector<double, Dim>& position, Vector<double, Dim>& momentum) const {
     for (int a = 0; a < Dim; ++a) {

@@ -162,8 +162,10 @@ void Simulation<Dim>::split_stretched() {
     return;
   }
   stopwatch_.time("split_stretched", [&] {
+    solver().copy_particles_back();
     const std::vector<Split<Dim>> due = splits_due(setup_, *slide_);
     if (!due.empty()) {
+      solver().release();
       split(setup_, due, *slide_, budget_.numerical);
     }
   });

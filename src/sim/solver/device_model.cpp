@@ -14,9 +14,7 @@ std::string not_on_devices(const Model<Dim>& model) {
     const char* what;
   } options[] = {
       {model.motion.width.varies(), "a case.width that varies along x"},
-      {!model.constraints.frames.empty(), "a [frame]"},
       {model.between_bodies.has_held, "a body.NAME.release_time above 0"},
-      {model.splits_stretched, "mechanics.split_stretched = true"},
       {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
       {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
       {model.band.current_masses, "heat.masses = \"current\""},
@@ -55,6 +53,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.effective_stress = model.motion.effective_stress;
   device.lubrication = model.motion.lubrication;
   device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
+  device.frames = model.constraints.frames;
   // Particles that will be removed may leave the domain before the end of the step.
   const double margin = parameters.grid.leaving == config::Policy::remove ? device.cell : 0.0;
   const Vector<double, Dim> beyond = Vector<double, Dim>::Constant(margin);

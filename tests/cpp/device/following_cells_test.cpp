@@ -101,6 +101,31 @@ TEST(DeviceFollowingCells, KeepTheBandColumnsAndTheBedOfTheCpu) {
   expect_the_same_base<2>(columns + loose_bed() + "bed.law=momentum", 110);
 }
 
+// Half of the particles are long enough to be split after ten steps.
+template <int Dim>
+void expect_the_same_splits(int steps) {
+  const config::Case parameters = on_bumps<Dim>("mechanics.split_stretched=true; mechanics.transfer=apic");
+  Simulation<Dim> on_cpu(parameters, site_of_bumps<Dim>()), on_device(parameters, site_of_bumps<Dim>());
+  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::shuffled));
+  for (Simulation<Dim>* simulation : {&on_cpu, &on_device}) {
+    mpm::Particles<Dim>& particles = simulation->particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.surface_stretch(p, 0) = particles.id(p) % 2 == 0 ? 4.0 : 1.0;
+    }
+    for (int k = 0; k < steps; ++k) {
+      simulation->step(0.0018);
+    }
+  }
+  EXPECT_GT(on_cpu.split_count(), 50);
+  EXPECT_EQ(on_device.split_count(), on_cpu.split_count());
+  EXPECT_EQ(on_device.budget().numerical, on_cpu.budget().numerical);
+  expect_the_same_particles(on_device, on_cpu);
+}
+TEST(DeviceFollowingCells, SplitTheParticlesOfTheCpu) {
+  expect_the_same_splits<2>(35);
+  expect_the_same_splits<3>(25);
+}
+
 TEST(DeviceFollowingCells, LoseTheParticlesOfTheCpu) {
   EXPECT_GT(expect_the_same_run_on_bumps<2>("grid.leaving=remove; grid.max=[8.0,18.0]", 40), 0);
   EXPECT_GT(expect_the_same_run_on_bumps<3>("grid.leaving=remove; grid.max=[8.0,10.0,18.0]", 45), 0);

@@ -123,8 +123,6 @@ TEST(DeviceRun, RefusesOptionsThatAreNotSupportedOnAGpu) {
   for (const auto& [sets, option] : options) {
     cases.emplace_back(sliding_bodies<2>(sets), option);
   }
-  cases.emplace_back(sliding_bodies<2>(), "a [frame]");
-  cases.back().first.frames["driver"] = {{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0};
   for (const auto& [parameters, option] : cases) {
     Simulation<2> simulation(parameters);
     try {

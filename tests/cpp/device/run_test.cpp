@@ -62,6 +62,25 @@ void expect_the_same_columns(int steps) {
   EXPECT_GT(on_cpu.band_columns()->segments().size(), at_start);
   EXPECT_EQ(on_device.band_columns()->state(), on_cpu.band_columns()->state());
 }
+// The frame ends within the left body.
+template <int Dim>
+void expect_the_same_with_a_frame(int steps) {
+  config::Case parameters = sliding_bodies<Dim>();
+  Simulation<Dim> without_frame(parameters);
+  parameters.frames["driver"] = Dim == 2 ? config::Frame{{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0}
+                                         : config::Frame{{-3.0, 2.4, 2.4}, {7.5, 5.0, 20.0}, "y", 25.0};
+  EXPECT_EQ(expect_the_same_run<Dim>(parameters, steps), 0);
+  Simulation<Dim> with_frame(parameters);
+  with_frame.step(0.002);
+  without_frame.step(0.002);
+  EXPECT_NE(fields_by_id(with_frame.particles()).at("velocity"),
+            fields_by_id(without_frame.particles()).at("velocity"));
+}
+TEST(DeviceRun, MovesTheFramesOfTheCpu) {
+  expect_the_same_with_a_frame<2>(45);
+  expect_the_same_with_a_frame<3>(12);
+}
+
 TEST(DeviceRun, KeepsTheBandColumnsOfTheCpu) {
   expect_the_same_columns<2>(60);
   expect_the_same_columns<3>(25);

@@ -11,7 +11,6 @@
 #include "../support/following_slides.hpp"
 #include "../support/messages.hpp"
 #include "../support/reproducible_runs.hpp"
-#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -367,11 +366,6 @@ TEST(Splitting, IsOffDuringSettling) {
   ASSERT_TRUE(simulation->settle());
   EXPECT_EQ(simulation->particle_count(), simulation->particles_at_start());
   EXPECT_EQ(std::as_const(*simulation).particles().surface_stretch(0), 1.0);
-}
-
-TEST(Splitting, IsRefusedOnDevices) {
-  EXPECT_EQ(not_on_devices(slide<2>(splits)->model()), "mechanics.split_stretched = true");
-  EXPECT_EQ(not_on_devices(slide<2>({})->model()), "");
 }
 
 }  // namespace
