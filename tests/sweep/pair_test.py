@@ -17,7 +17,7 @@ from thawslide.pairs.outlines import outline_distance
 from thawslide.run_folder import Run
 
 
-@pytest.mark.parametrize("order", [0.6, 1.0, 2.0, 2.9])
+@pytest.mark.parametrize("order", [0.6, 1.0, 1.5, 1.9])
 def test_power_law_is_extrapolated_to_its_limit(order: float) -> None:
     found = error_of(*(7.0 + 3.0 * h**order for h in (4.0, 2.0, 1.0)))
     assert found.order == pytest.approx(order, rel=1e-12)
@@ -30,8 +30,10 @@ def test_power_law_is_extrapolated_to_its_limit(order: float) -> None:
     ("values", "reason", "spread"),
     [
         ((1.0, 3.0, 2.0), "not monotonic", 2.0),
-        ((1.0, 2.0, 2.9), "observed order 0.2, not 0.5 to 3", 1.9),
-        ((1.0, 2.0, 2.01), "observed order 6.6, not 0.5 to 3", 1.01),
+        ((1.0, 2.0, 2.9), "observed order 0.2, not 0.5 to 2", 1.9),
+        ((1.0, 2.0, 2.01), "observed order 6.6, not 0.5 to 2", 1.01),
+        ((1302.0, 1320.0, 1323.0), "observed order 2.6, not 0.5 to 2", 21.0),  # 1,336 on small cells
+        ((1.0, 2.0, 3.01), "observed order 0.0, not 0.5 to 2", 2.01),
         ((math.nan, 2.0, 5.0), "a run has no such result", 3.0),
         ((1.0, 2.0, 2.0), "the results on 2h and h are equal", 1.0),
     ],
@@ -130,6 +132,45 @@ def test_the_command_runs_three_cells_and_reports_errors(tmp_path: Path, capfd: 
     moved = Run(output / "h").series["mean_displacement_m"][-1]
     assert error["value"] == moved > 0.0
     assert (output / "pair.md").read_text().startswith("# Errors of column of 20 m")
+
+
+# A cube of 8 m that collapses, on cells of 8, 4 and 2 m.
+CASE_3D = """
+[case]
+title = "cube of 8 m"
+dimension = 3
+[time]
+end = 1.0
+stepping = "adaptive"
+[grid]
+cell = 2.0
+min = [0.0, 0.0, 0.0]
+max = [42.0, 32.0, 16.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[body.cube]
+material = "grains"
+shape = "box"
+min = [16.0, 12.0, 0.0]
+max = [24.0, 20.0, 8.0]
+"""
+
+
+@pytest.mark.usefixtures("with_program")
+def test_in_3d_all_runs_have_one_map_cell(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "case.toml").write_text(CASE_3D + CASE[CASE.index("[material.grains]") :])
+    output = tmp_path / "out"
+    command = [str(tmp_path / "case.toml"), "--threads", "1", "--output", str(output)]
+    assert main(command) == 0, capfd.readouterr().err
+    runs = [Run(output / name) for name in ("4h", "2h", "h")]
+    cells = [run.maps["max_thickness"].grid.cell_x for run in runs]
+    assert cells == [4.0, 4.0, 4.0], "that of the run on cells of 2h"
+    found = json.loads((output / "pair.json").read_text())
+    assert found["results"]["deposit_area_m2"]["value"] == runs[-1].facts["deposit_area_m2"] > 0.0
+    assert found["outline_distance_m"], "of the outlines on the two finer cells"
+    assert main(command) == 2, "runs exist"
+    assert "has a run already. Add --overwrite" in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("with_program")

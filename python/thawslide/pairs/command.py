@@ -39,6 +39,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         changes: dict[str, object] = {"grid.max": corner}
         if corner != case["grid"]["max"]:
             print_line(f"pair: grid.max is {toml_text(corner)} in all runs, a whole number of their largest cells")
+        filtered = case["terrain"].get("smooth", 0.0) if case["terrain"]["type"] == "dem" else None
+        if isinstance(filtered, float) and filtered < max(FACTORS) * cell:
+            print_line(
+                f"note: terrain.smooth is {exact_text(filtered)} m, less than the largest cells of "
+                f"{exact_text(max(FACTORS) * cell)} m: the ground of the runs differs, and so do their results."
+            )
         output = Path(given.output or Path("runs") / f"{whole.name}-pair")
         _prepare(output, given.overwrite)
         runs: dict[int, Run] = {}

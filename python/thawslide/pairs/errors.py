@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-LOWEST, HIGHEST = 0.5, 3.0  # observed orders between which a result is extrapolated
+# Observed orders between which a result is extrapolated; no part of the scheme has an order above 2.
+LOWEST, HIGHEST = 0.5, 2.0
 SAFETY = 1.25  # of the error from three cells (Roache 1994, Perspective: a method for uniform reporting, Eq. 6)
 
 
@@ -42,7 +43,7 @@ def error_of(coarsest: float, coarse: float, value: float) -> Error:
     else:
         order = math.log2(first / second)
         if not LOWEST <= order <= HIGHEST:
-            reason = f"observed order {order:.1f}, not {LOWEST:g} to {HIGHEST:g}"
+            reason = f"observed order {round(order, 1) + 0.0:.1f}, not {LOWEST:g} to {HIGHEST:g}"
     if reason:
         return Error(value, coarse, coarsest, math.nan, math.nan, spread, reason)
     step = second / (2.0**order - 1.0)
