@@ -209,7 +209,7 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
     const double seconds = cost.processor * config::run_time_factor(proposal.cell, cell, 3);
     const bool is_timed = proposal.particles >= fewest_timed_particles;
     others += fmt::format("             --resolution {}: cells of {:g} m{}; {}\n", each.name, cell,
-                          is_timed ? ", about " + duration_text(seconds) : "", each.errors);
+                          is_timed ? fmt::format(", about {} of processor time", duration_text(seconds)) : "", each.errors);
   }
   return fmt::format(
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {}\n{}",

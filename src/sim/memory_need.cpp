@@ -62,7 +62,7 @@ std::string parts_of(const MemoryNeed& need) {
 // Addition to the number of particles in messages.
 std::string text_of_splitting(const config::Case& parameters) {
   const double factor = splitting_factor(parameters);
-  return factor > 1.0 ? fmt::format(", and up to {:g} times as many by mechanics.split_stretched", factor) : "";
+  return factor > 1.0 ? fmt::format(", and about {:g} times as many by mechanics.split_stretched", factor) : "";
 }
 
 // Refuses a case that no cell size can make fit, because its cell-independent memory is too large. The message names

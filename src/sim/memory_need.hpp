@@ -30,8 +30,9 @@ inline constexpr double bytes_of_program = 60e6, bytes_of_map_files = 100e6;
 inline constexpr double usual_spread = 5.0;
 
 // Number of particles relative to t = 0 if stretched ones are split (mechanics.split_stretched), an allowance: 1.3 to
-// 3.4 times in whole runs (plane, Lamplugh). Also the cost of such a run over one that splits none: 1.1 to 1.5 times.
-inline constexpr double usual_splitting = 4.0, usual_cost_of_splitting = 1.5;
+// 5.9 times in whole runs (plane, Lamplugh, slope of the Alps). Also the cost of such a run over one that splits none:
+// 1.1 to 1.5 times.
+inline constexpr double usual_splitting = 6.0, usual_cost_of_splitting = 1.5;
 
 // Memory in bytes.
 struct MemoryNeed {

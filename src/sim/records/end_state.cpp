@@ -1,11 +1,34 @@
 #include "sim/records/end_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/rounding.hpp"
 
 namespace thawslide::sim {
+
+namespace {
+
+// What has reduced growth in trials (benchmarks/decisions/viscosity.md), among what the case does not have yet.
+std::string remedy_of_growth(const config::Case& parameters) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(parameters.materials.begin(), parameters.materials.end(),
+                       [&](const auto& named) { return has(named.second); });
+  };
+  if (any([](const config::Material& material) { return material.dilation_angle > 0.0; })) {
+    return "Set a smaller dilation_angle of the materials.";
+  }
+  if (any([](const config::Material& material) { return !material.gaps_close_first; })) {
+    return "Set gaps_close_first = true for the materials.";
+  }
+  if (parameters.mechanics.transfer != config::Transfer::apic) {
+    return "Set mechanics.transfer = \"apic\".";
+  }
+  return "Use a smaller grid.cell, or a larger viscosity_number of the materials.";
+}
+
+}  // namespace
 
 template <int Dim>
 EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
@@ -32,6 +55,8 @@ EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
   state.mean_velocity = sums.momentum.norm() / static_cast<double>(sums.mass);
   state.dilation_volume = width * sums.volume_change;
   state.dilation_fraction = sums.volume_change / sums.initial_volume;
+  state.dilation_remedy =
+      state.dilation_fraction > 0.0 ? remedy_of_growth(parameters) : "Check youngs_modulus of the materials.";
   return state;
 }
 
@@ -62,10 +87,9 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
   if (std::abs(state.dilation_fraction) > noticed_dilation) {
     warnings.push_back(
         fmt::format("dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
-                    "Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
-                    "gaps_close_first of the materials.",
+                    "Thicknesses, areas and volumes are too {} by about as much. {}",
                     100.0 * state.dilation_fraction, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
-                    state.dilation_fraction > 0.0 ? "large" : "small"));
+                    state.dilation_fraction > 0.0 ? "large" : "small", state.dilation_remedy));
   }
   if (state.left_particles > 0) {
     const double mass = state.left_mass - state.guarded_mass;

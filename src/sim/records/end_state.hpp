@@ -27,6 +27,7 @@ struct EndState {
   double mean_velocity = 0.0;      // magnitude of the mean velocity, as in the history [m/s]
   double dilation_volume = 0.0;    // [m3]; in 2D per metre of width, times case.width if specified
   double dilation_fraction = 0.0;  // fraction of the initial volume
+  std::string dilation_remedy;     // sentence on what reduces it
   double left_mass = 0.0;     // of removed particles, guards included, as in the history [kg]; in 2D as dilation_volume
   double guarded_mass = 0.0;  // part of left_mass removed by guards [kg]
   double whole_mass = 0.0;    // of all particles, including removed ones [kg]

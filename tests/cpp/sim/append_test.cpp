@@ -164,6 +164,7 @@ TEST(Append, CausesNoDilation) {
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].rfind("dilation has changed the volume of the slide by +6.0 %, ", 0), 0U) << warnings[0];
   expect_in(warnings[0], " m3 (expected: at most 5 %). Thicknesses, areas and volumes are too large by");
+  expect_in(warnings[0], "Set mechanics.transfer = \"apic\".");
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.volume(p) *= 1.049 / 1.06;
   }
