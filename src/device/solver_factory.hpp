@@ -20,8 +20,6 @@ struct StepModel;
 template <int Dim>
 struct StepSums;
 template <int Dim>
-struct HostBed;
-template <int Dim>
 struct HostCallbacks;
 struct HostColumns;
 struct MapSample;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 #include "device/band_columns.hpp"
@@ -105,8 +106,10 @@ class Step {
         sums_(backend, 1),
         band_(passes_, callbacks, sums_.data()),
         maps_(backend, model.cell, model.half_sizes),
-        band_columns_(backend, callbacks.columns),
-        bed_(backend, callbacks.bed) {
+        band_columns_(backend, callbacks.columns) {
+    if (callbacks.bed != nullptr) {
+      bed_.emplace(backend, *callbacks.bed);
+    }
     if (passes_.model.mapping.has_ground) {
       column_heights_.set(callbacks.column_heights());
       // Not those of the CPU, which may contract products and sums: a restart would not have the same bits.
@@ -205,7 +208,9 @@ class Step {
       const std::vector<std::uint64_t> blocks = passes_.cells.block_keys();
       passes_.ground.update(blocks);
       band_columns_.update(blocks);
-      bed_.update(blocks, passes_.ground);
+      if (bed_) {
+        bed_->update(blocks, passes_.ground);
+      }
       passes_.nodes.clear_base(nodes);
       bases_.resize(passes_.ground.candidate_count());
     }
@@ -238,11 +243,11 @@ class Step {
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
                             band_columns_.states(), bases_.data());
     }
-    if (bed_.exists()) {
-      bed_.distribute(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground, passes_.model.cell,
-                      step.nodes);
-      resolve_contact(step, bed_.below_nodes());
-      bed_.collect(step.nodes, passes_.ground.candidates());
+    if (bed_) {
+      bed_->update(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.model.cell, step.nodes,
+                   passes_.ground.candidates());
+      resolve_contact(step, bed_->below_nodes());
+      bed_->collect(dt);
     } else {
       resolve_contact(step, NoBeds{});
     }
@@ -344,7 +349,7 @@ class Step {
   BandStages<Backend, Shape, Dim> band_;
   Maps<Backend> maps_;
   BandColumns<Backend, Dim> band_columns_;
-  ErodibleBed<Backend, Dim> bed_;
+  std::optional<ErodibleBed<Backend, Dim>> bed_;  // none without an erodible bed
   exec::Array<double, Backend> column_heights_{passes_.backend};
   exec::Array<double, Backend> free_gaps_{passes_.backend};
   exec::Array<terrain::BasalNode, Backend> bases_{passes_.backend};

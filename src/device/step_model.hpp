@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -21,7 +20,7 @@
 #include "mpm/tile.hpp"
 #include "physics/mixture.hpp"
 #include "terrain/basal_law.hpp"
-#include "terrain/bed_node.hpp"
+#include "terrain/bed.hpp"
 #include "terrain/column_heights.hpp"
 #include "terrain/ground_at_node.hpp"
 
@@ -97,27 +96,7 @@ struct HostColumns {
 template <int Dim>
 inline constexpr std::size_t column_record_size = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
 
-// Erodible bed, stored on the CPU; empty without one.
-template <int Dim>
-struct HostBed {
-  using Columns = std::vector<std::array<int, Dim - 1>>;  // by the indices of their nodes along the horizontal axes
-
-  terrain::BedMaterial material;
-  // Called after blocks have changed, with the columns of the active blocks and those of the candidate nodes. Some are
-  // outside the domain.
-  std::function<void(const Columns& of_blocks, const Columns& of_candidates)> set_columns;
-  // Called with the newly covered bed parts of the block columns (terrain/bed.hpp) and the loads of the candidate
-  // nodes. Returns the bed mass available to each candidate node [kg].
-  std::function<const std::vector<double>&(const std::vector<std::uint32_t>& parts, const std::vector<double>& loads)>
-      distribute;
-  // Called after contact, with a record of bed_record_size<Dim> numbers per candidate node.
-  std::function<void(const std::vector<double>& nodes)> collect;
-};
-// Per node: the record of BedLayout, and the normal pressure [Pa] if the node has entrained bed material.
-template <int Dim>
-inline constexpr std::size_t bed_record_size = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
-
-// CPU functions called during a step.
+// CPU functions called, and data used, during a step.
 template <int Dim>
 struct HostCallbacks {
   GroundQuery<Dim> ground;
@@ -126,7 +105,7 @@ struct HostCallbacks {
   // As in band/slide_columns.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPosition<Dim> slope_cosine, normal_gravity;
   HostColumns columns;
-  HostBed<Dim> bed;
+  terrain::Bed<Dim>* bed = nullptr;  // erodible, on the CPU; null if there is none
 };
 
 // Sums for maps and for the path of the centre of mass after a step (3D only).

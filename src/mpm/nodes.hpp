@@ -38,7 +38,6 @@ struct Nodes {
   SparseRecords<Dim, BaseLayout::size> base;
   SparseRecordsOf<Contact, Dim> contact;
   SparseRecordsOf<NearGround, Dim> near_ground{pool};
-  SparseRecords<Dim, BedLayout<Dim>::size> bed;  // with an erodible bed
   SparseRecordsOf<UnreachedHeat, Dim> unreached_heat;
   SparseRecordsOf<BaseState, Dim> base_state;    // with band columns
   SparseRecordsOf<HeatRates, Dim> secant_rates;  // with the secant capacity, in blocks with temperature changes

@@ -126,11 +126,12 @@ struct Contact {
 // Bed mass available to contact nodes, and entrained mass.
 template <int Dim>
 struct BedLayout {
-  static constexpr std::size_t available = 0;  // [kg]
-  static constexpr std::size_t entrained = 1;  // [kg]
-  static constexpr std::size_t work = 2;       // work done on it by the sliding mass [J]
-  static constexpr std::size_t impulse = 3;    // impulse from the sliding mass [N s]
-  static constexpr int size = 3 + Dim;
+  static constexpr std::size_t available = 0;                    // [kg]
+  static constexpr std::size_t entrained = 1;                    // [kg]
+  static constexpr std::size_t work = 2;                         // work done on it by the sliding mass [J]
+  static constexpr std::size_t impulse = 3;                      // impulse from the sliding mass [N s]
+  static constexpr std::size_t normal_pressure = impulse + Dim;  // on the ground [Pa]
+  static constexpr std::size_t size = normal_pressure + 1;
 };
 
 // State of the band columns around contact nodes: sums over basal segments of weight times area [m2] times each

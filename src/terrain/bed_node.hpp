@@ -1,13 +1,15 @@
 // Entrainment of the bed by one node, and bed parts covered by a particle. For host and device.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "base/select.hpp"
 #include "mpm/records.hpp"
-#include "mpm/vectors_in_records.hpp"
+#include "mpm/tile.hpp"
 #include "physics/entrainment.hpp"
 #include "physics/options.hpp"
 #include "terrain/contact_node.hpp"
@@ -23,8 +25,40 @@ struct BedMaterial {
   double density = 0;                // [kg/m3]
 };
 
-// Parts of a column of nodes along each axis, covered individually.
+// Columns of nodes of the domain: nodes with the same indices along the horizontal axes. The first column is at the
+// domain's lower corner.
+template <int Dim>
+struct BedColumns {
+  using Column = std::array<int, Dim - 1>;
+  static constexpr std::size_t outside = ~std::size_t{0};
+
+  Column count{};  // along each axis
+
+  // Number of a column, x fastest; `outside` if it is outside the domain.
+  [[nodiscard]] THAWSLIDE_HD std::size_t number_of(const Column& column) const {
+    std::size_t number = 0;
+    for (std::size_t a = Dim - 1; a-- > 0;) {
+      if (column[a] < 0 || column[a] >= count[a]) {
+        return outside;
+      }
+      number = number * static_cast<std::size_t>(count[a]) + static_cast<std::size_t>(column[a]);
+    }
+    return number;
+  }
+  // The same for the column of a node of a block.
+  [[nodiscard]] std::size_t number_of(std::uint64_t block, std::size_t node) const {
+    using T = mpm::Tile<Dim>;
+    const typename T::Index index = T::node(T::index(block), static_cast<int>(node));
+    Column column{};
+    std::copy_n(index.begin(), column.size(), column.begin());
+    return number_of(column);
+  }
+};
+
+// Parts of a column of nodes along each axis, covered individually, and their number.
 inline constexpr int bed_parts = 4;
+template <int Dim>
+inline constexpr int parts_of_column = mpm::power(bed_parts, Dim - 1);
 
 // Parts, along one axis, whose centres the box of a particle reaches. They are counted from the domain's lower corner;
 // the first part of column 0 begins half a column below it. half: of the box, in cells.
@@ -38,19 +72,28 @@ inline THAWSLIDE_HD PartsCovered parts_covered(double position, double half, dou
   return {static_cast<int>(ceil(middle - reach)), static_cast<int>(floor(middle + reach))};
 }
 
-// Calls visit(part) for the parts whose centres a particle's box reaches; part: index along each horizontal axis. Parts
-// outside the domain have negative indices or large ones. half: of the box, in cells.
+// Calls visit(number of the column, part) for the parts of the domain whose centres a particle's box reaches. half: of
+// the box, in cells.
 template <int Dim, class Particles, class Visit>
-THAWSLIDE_HD void for_covered_parts(const Particles& particles, std::uint32_t p, double half, double cell,
-                                    const Visit& visit) {
+THAWSLIDE_HD void for_covered_parts(const BedColumns<Dim>& columns, const Particles& particles, std::uint32_t p,
+                                    double half, double cell, const Visit& visit) {
   const PartsCovered x = parts_covered(particles.position(p, 0), half, cell);
   PartsCovered y{0, 0};
   if constexpr (Dim == 3) {
     y = parts_covered(particles.position(p, 1), half, cell);
   }
   for (int row = y.first; row <= y.last; ++row) {
-    for (int column = x.first; column <= x.last; ++column) {
-      visit(std::array<int, 2>{column, row});
+    for (int along_x = x.first; along_x <= x.last; ++along_x) {
+      const int index[] = {along_x, row};
+      typename BedColumns<Dim>::Column column{};
+      int part = 0;
+      for (std::size_t a = Dim - 1; a-- > 0;) {
+        column[a] = index[a] >= 0 ? index[a] / bed_parts : -1;
+        part = part * bed_parts + index[a] % bed_parts;
+      }
+      if (const std::size_t number = columns.number_of(column); number != BedColumns<Dim>::outside) {
+        visit(number, part);
+      }
     }
   }
 }
@@ -77,7 +120,7 @@ inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& materia
 template <int Dim>
 struct BedBelowNode {
   const BedMaterial* material;
-  double* record;
+  double* numbers;
   double area, strength, dt, mass;
 
   template <int>
@@ -85,19 +128,22 @@ struct BedBelowNode {
                                                         const Vector<double, Dim>& along,
                                                         double tangential_size) const {
     using Layout = mpm::BedLayout<Dim>;
-    if (material == nullptr || !impulse.slides || !(record[Layout::available] > 0.0)) {
+    if (material == nullptr || !impulse.slides || !(numbers[Layout::available] > 0.0)) {
       return {};
     }
     const double speed = (tangential_size - impulse.tangential) / mass;
     const EntrainmentImpulse entrain =
-        entrainment_of(*material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
-    record[Layout::entrained] = entrain.entrained;
+        entrainment_of(*material, numbers[Layout::available], mass, speed, strength, normal_pressure, area, dt);
+    numbers[Layout::entrained] = entrain.entrained;
     for (std::size_t a = 0; a < Dim; ++a) {
-      record[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
+      numbers[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
     }
     return entrain;
   }
-  THAWSLIDE_HD void record_work(double work) const { record[mpm::BedLayout<Dim>::work] = work; }
+  THAWSLIDE_HD void record(double work, double normal_pressure) const {
+    numbers[mpm::BedLayout<Dim>::work] = work;
+    numbers[mpm::BedLayout<Dim>::normal_pressure] = normal_pressure;
+  }
 };
 
 }  // namespace thawslide::terrain

@@ -177,12 +177,10 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                                  const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
-                                 double dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed, const StrengthLaw* strength) {
+                                 double dt, mpm::Nodes<Dim>& nodes, const BedOnGrid<Dim>* bed,
+                                 const StrengthLaw* strength) {
   nodes.motion.resize(grid.blocks().size());
   apply_contact_conditions(grid, ground, nodes);
-  if (bed != nullptr) {
-    bed->distribute(grid, nodes);
-  }
   std::optional<GivenStrengths> given;
   if (strength != nullptr && !model.base_is_fixed) {
     given = strengths_by(*strength, grid, ground, constraints, model, time, dt, nodes);
@@ -211,12 +209,7 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
                              : given             ? given->nodes.strength[given->first[b] + c]
                                                  : base.strength(model.law.clamp, model.law.cap_pressure);
       NodeState<Dim> state = trial_of(step, at);
-      const BedBelowNode<Dim> below{bed != nullptr ? &bed->material() : nullptr,
-                                    bed != nullptr ? nodes.bed.of_block(b)[at.node].data() : nullptr,
-                                    base.area,
-                                    of_base,
-                                    dt,
-                                    state.mass};
+      const auto below = bed != nullptr ? bed->below(at, base.area, of_base, dt, state.mass) : BedBelowNode<Dim>{};
       touch_ground(step, at, base, of_base, model.law.heat_fraction, below, state, work);
       store_motion(step, at, state, work);
     }
@@ -231,7 +224,7 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
   template bool loads_bare_ground<Dim>(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&);                     \
   template ContactWork<Dim> resolve_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*,          \
                                                  const mpm::Constraints<Dim>&, const ContactModel<Dim>&, double, \
-                                                 double, mpm::Nodes<Dim>&, const Bed<Dim>*, const StrengthLaw*);
+                                                 double, mpm::Nodes<Dim>&, const BedOnGrid<Dim>*, const StrengthLaw*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

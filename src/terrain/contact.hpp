@@ -7,14 +7,11 @@
 #include "mpm/nodes.hpp"
 #include "mpm/section_width.hpp"
 #include "terrain/basal_law.hpp"
-#include "terrain/bed.hpp"
+#include "terrain/bed_on_grid.hpp"
 #include "terrain/contact_work.hpp"
 #include "terrain/strength_law.hpp"
 
 namespace thawslide::terrain {
-
-template <int Dim>
-class GroundOnGrid;
 
 template <int Dim>
 struct ContactModel {
@@ -41,13 +38,12 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null; with
 // ground, call press_on_ground before. Requires the clearance of this step, and if the mass is read, also
-// nodes.averages, nodes.state and nodes.near_ground, except at nodes with band columns. Entrainment is stored in
-// nodes.bed; bed may be null. strength: replaces the strengths of the case's laws unless it is null or the base is
-// fixed.
+// nodes.averages, nodes.state and nodes.near_ground, except at nodes with band columns. bed: after distribute(); may be
+// null. strength: replaces the strengths of the case's laws unless it is null or the base is fixed.
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                                  const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
-                                 double dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed = nullptr,
+                                 double dt, mpm::Nodes<Dim>& nodes, const BedOnGrid<Dim>* bed = nullptr,
                                  const StrengthLaw* strength = nullptr);
 
 // Initializes nodes.contact before the first motion, without contact. `ground` may be null.

@@ -164,7 +164,7 @@ struct NoBed {
                                           const Vector<double, Dim>& /*along*/, double /*tangential_size*/) const {
     return {};
   }
-  THAWSLIDE_HD void record_work(double /*work*/) const {}
+  THAWSLIDE_HD void record(double /*work*/, double /*normal_pressure*/) const {}
 };
 
 // Ground and strength at a contact node. In a bend of the ground, the normal pressures on its parts partly cancel:
@@ -206,7 +206,7 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>
   const double slip_speed = max(0.0, middle.dot(along));
   const double friction_work = impulse.slides ? impulse.tangential * slip_speed : 0.0;
   if (entrain.entrained > 0.0) {
-    bed.record_work(to_bed.dot(middle));
+    bed.record(to_bed.dot(middle), conditions.load / dt / conditions.area);
     work.bed_work += to_bed.dot(middle);
     work.bed_impulse += to_bed;
   }

@@ -15,7 +15,7 @@ ALLOWED = {
     "physics": {"base", "physics"},
     "config": {"base", "physics", "config"},
     "mpm": {"base", "physics", "mpm"},
-    "terrain": {"base", "physics", "mpm", "terrain"},
+    "terrain": {"base", "physics", "mpm", "exec", "terrain"},
     "exec": {"base", "exec"},
     "band": {"base", "physics", "mpm", "exec", "band"},
     "device": {"base", "physics", "mpm", "exec", "terrain", "band", "device"},

@@ -126,14 +126,18 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terra
                              model.contact.mass_damping, dt, nodes_);
   }
   press_on_ground(dt, model.contact.reads_mass || strength != nullptr);
-  terrain::Bed<Dim>* bed = base_.bed_in_reach(model);
-  if (bed != nullptr) {
-    bed->cover(slide_.grid, slide_.ground, model.motion.sizes, slide_.particles);
+  const bool has_bed = base_.bed_in_reach(model) != nullptr;
+  if (has_bed) {
+    if (!bed_) {
+      bed_.emplace(cpu_, *base_.bed);
+    }
+    bed_->update(slide_.grid, slide_.ground, model.motion.sizes, slide_.particles, nodes_);
   }
-  const terrain::ContactWork<Dim> work = terrain::resolve_contact(
-      slide_.grid, ground(), model.constraints, model.contact, clock_.time, dt, nodes_, bed, strength);
-  if (bed != nullptr) {
-    bed->collect(slide_.grid, nodes_, dt);
+  const terrain::ContactWork<Dim> work =
+      terrain::resolve_contact(slide_.grid, ground(), model.constraints, model.contact, clock_.time, dt, nodes_,
+                               has_bed ? &*bed_ : nullptr, strength);
+  if (has_bed) {
+    bed_->collect(dt);
   }
   if (model.ground) {
     terrain::mark_band_and_slip(slide_.grid, slide_.ground, dt, nodes_, slide_.particles);

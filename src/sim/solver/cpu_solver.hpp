@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "band/flow_depth.hpp"
@@ -13,6 +14,7 @@
 #include "sim/solver/clock.hpp"
 #include "sim/solver/slide.hpp"
 #include "sim/solver/solver.hpp"
+#include "terrain/bed_on_grid.hpp"
 
 namespace thawslide::sim {
 
@@ -78,6 +80,8 @@ class CpuSolver final : public Solver<Dim> {
   mpm::Nodes<Dim> nodes_;
   band::FlowDepth<Dim> flow_depth_;
   mpm::BodyContact<Dim> body_contact_;
+  exec::Cpu cpu_;
+  std::optional<terrain::BedOnGrid<Dim>> bed_;  // none before the bed is in reach
   std::vector<std::uint64_t> blocks_of_nodes_;
   double band_thickness_ = -1.0;  // of the last scaling [m]
   double rescaling_heat_ = 0;     // added since the last complete step [J]

@@ -80,13 +80,6 @@ void set_nodes(const std::vector<double>& numbers, NodesOfDevice<Dim>& base) {
   }
 }
 
-template <int Dim>
-struct BedBelowDevice {
-  std::vector<std::size_t> columns;                         // below the active blocks: column numbers in the bed
-  std::vector<typename terrain::Bed<Dim>::Pressing> nodes;  // that may touch the ground
-  std::vector<double> available;                            // mass available to these nodes [kg]
-};
-
 }  // namespace
 
 template <int Dim>
@@ -109,57 +102,8 @@ device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clo
           }};
 }
 
-template <int Dim>
-device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const double& dt, Base<Dim>& base) {
-  terrain::Bed<Dim>* bed = base.bed_in_reach(setup.model);
-  if (bed == nullptr) {
-    return {};
-  }
-  using Columns = typename device::HostBed<Dim>::Columns;
-  const auto below = std::make_shared<BedBelowDevice<Dim>>();
-  return {bed->material(),
-          [bed, below](const Columns& of_blocks, const Columns& of_candidates) {
-            below->columns.clear();
-            for (const auto& column : of_blocks) {
-              below->columns.push_back(bed->number_of(column));
-            }
-            below->nodes.clear();
-            for (const auto& column : of_candidates) {
-              below->nodes.push_back({bed->number_of(column)});
-            }
-          },
-          [bed, below](const std::vector<std::uint32_t>& parts,
-                       const std::vector<double>& loads) -> const std::vector<double>& {
-            for (std::size_t c = 0; c < parts.size(); ++c) {
-              if (below->columns[c] != terrain::Bed<Dim>::outside) {
-                bed->cover(below->columns[c], parts[c]);
-              }
-            }
-            for (std::size_t n = 0; n < loads.size(); ++n) {
-              below->nodes[n].load = loads[n];
-            }
-            bed->distribute(below->nodes);
-            below->available.clear();
-            for (const auto& node : below->nodes) {
-              below->available.push_back(node.available);
-            }
-            return below->available;
-          },
-          [bed, below, &dt](const std::vector<double>& nodes) {
-            bed->age(dt);
-            const double* record = nodes.data();
-            for (const auto& node : below->nodes) {
-              if (record[mpm::BedLayout<Dim>::entrained] > 0.0) {
-                bed->collect(node.column, record, record[mpm::BedLayout<Dim>::size]);
-              }
-              record += device::bed_record_size<Dim>;
-            }
-          }};
-}
-
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                  \
-  template device::HostColumns columns_for_device<Dim>(const Setup<Dim>&, const Clock&, const double&, Base<Dim>&); \
-  template device::HostBed<Dim> bed_for_device<Dim>(const Setup<Dim>&, const double&, Base<Dim>&);
+#define THAWSLIDE_INSTANTIATE(Dim) \
+  template device::HostColumns columns_for_device<Dim>(const Setup<Dim>&, const Clock&, const double&, Base<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,5 +1,4 @@
-// Base of a slide on a device: band columns and erodible bed are computed on the CPU, from nodal values that the device
-// transfers.
+// Base of a slide on a device: band columns are computed on the CPU, from nodal values that the device transfers.
 #pragma once
 
 #include "device/step_model.hpp"
@@ -8,10 +7,8 @@
 
 namespace thawslide::sim {
 
-// Callbacks; empty without band columns or bed. All arguments must outlive them. dt: of the step [s].
+// Callbacks; empty without band columns. All arguments must outlive them. dt: of the step [s].
 template <int Dim>
 device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base);
-template <int Dim>
-device::HostBed<Dim> bed_for_device(const Setup<Dim>& setup, const double& dt, Base<Dim>& base);
 
 }  // namespace thawslide::sim

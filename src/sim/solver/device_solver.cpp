@@ -84,7 +84,7 @@ void DeviceSolver<Dim>::start() {
   call([&] {
     device::HostCallbacks<Dim> callbacks = terrain_for_device(setup_.model, setup_.cell());
     callbacks.columns = columns_for_device(setup_, clock_, session_->dt, base_);
-    callbacks.bed = bed_for_device(setup_, session_->dt, base_);
+    callbacks.bed = base_.bed_in_reach(setup_.model);
     session_->solver = make_(device_model_of(setup_.parameters, setup_.model, clock_.step_number == 0),
                              mpm::view_of(slide_.particles), slide_.particles.size(), std::move(callbacks));
     session_->sums.extremes = session_->solver->extremes();

@@ -1,9 +1,10 @@
-// Model options other than those of slide.hpp, with CPU parts of the step: stubs of band columns and an erodible bed,
-// which record the data they receive.
+// Model options other than those of slide.hpp, with CPU parts of the step: a stub of band columns, which records the
+// data that it receives, and an erodible bed.
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -66,8 +67,17 @@ device::StepModel<Dim> model_of(Variant variant) {
   return model;
 }
 
-// Data received by the CPU part of a step, in sequence.
-using Reported = std::vector<double>;
+// Data received by the CPU parts of a step: in sequence, and the state of the bed.
+struct Reported {
+  std::vector<double> numbers;
+  std::function<std::vector<double>()> bed = [] { return std::vector<double>(); };
+
+  [[nodiscard]] std::vector<double> all() const {
+    std::vector<double> all = bed();
+    all.insert(all.end(), numbers.begin(), numbers.end());
+    return all;
+  }
+};
 
 // Uniform columns.
 template <int Dim>
@@ -95,36 +105,18 @@ device::HostColumns columns_below(const std::shared_ptr<Reported>& specified) {
           },
           [states]() -> const std::vector<double>& { return *states; },
           [specified](const std::vector<double>& nodes) {
-            specified->insert(specified->end(), nodes.begin(), nodes.end());
+            specified->numbers.insert(specified->numbers.end(), nodes.begin(), nodes.end());
           }};
 }
 
-// Inexhaustible bed, whose available mass at a node increases with the covered part of its column.
+// Uniform bed over the part of the plane that the slide reaches.
 template <int Dim>
-device::HostBed<Dim> bed_below(const std::shared_ptr<Reported>& specified) {
-  using Bed = device::HostBed<Dim>;
-  Bed bed;
-  bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
-  const auto available = std::make_shared<std::vector<double>>();
-  bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
-  bed.distribute = [specified, available](const std::vector<std::uint32_t>& parts,
-                                          const std::vector<double>& loads) -> const std::vector<double>& {
-    double covered = 0;
-    for (const std::uint32_t of_column : parts) {
-      specified->push_back(of_column);
-      covered += of_column != 0 ? 1.0 : 0.0;
-    }
-    available->clear();
-    for (const double load : loads) {
-      specified->push_back(load);
-      available->push_back(load > 0.0 ? covered : 0.0);
-    }
-    return *available;
-  };
-  bed.collect = [specified](const std::vector<double>& nodes) {
-    specified->insert(specified->end(), nodes.begin(), nodes.end());
-  };
-  return bed;
+std::shared_ptr<terrain::Bed<Dim>> bed_below() {
+  typename terrain::Bed<Dim>::Column columns;
+  columns.fill(64);
+  const terrain::BedMaterial material{terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
+  return std::make_shared<terrain::Bed<Dim>>(
+      material, columns, std::vector<double>(static_cast<std::size_t>(mpm::power(64, Dim - 1)), 10.0));
 }
 
 template <int Dim>
@@ -140,7 +132,9 @@ device::HostCallbacks<Dim> processor_of(Variant variant, const std::shared_ptr<R
     ask.columns = columns_below<Dim>(specified);
   }
   if (variant == Variant::bed) {
-    ask.bed = bed_below<Dim>(specified);
+    const auto bed = bed_below<Dim>();
+    ask.bed = bed.get();
+    specified->bed = [bed] { return bed->state(); };
   }
   return ask;
 }
