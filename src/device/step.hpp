@@ -10,7 +10,6 @@
 #include "device/band_stages.hpp"
 #include "device/erodible_bed.hpp"
 #include "device/escape_check.hpp"
-#include "device/front.hpp"
 #include "device/ground.hpp"
 #include "device/maps.hpp"
 #include "device/node_kernels.hpp"
@@ -18,6 +17,7 @@
 #include "device/reductions.hpp"
 #include "device/step_passes.hpp"
 #include "device/velocity_filter.hpp"
+#include "mpm/front_stage.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/stress_kernel.hpp"
 #include "terrain/band_marks_kernel.hpp"
@@ -172,7 +172,7 @@ class Step {
     return passes_.sum_over_particles(of_particle, body_);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) {
-    return front_.find(path, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
+    return front_.find(path, mass, passes_.particles.view(), passes_.cells.tables().order, passes_.particles.size());
   }
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
   std::vector<Vector<double, Dim>> escaped_positions() {
@@ -354,7 +354,7 @@ class Step {
   exec::Array<double, Backend> free_gaps_{passes_.backend};
   exec::Array<terrain::BasalNode, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
-  Front<Backend, Dim> front_{passes_.backend};
+  mpm::Front<Backend, Dim> front_{passes_.backend};
   exec::Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
   exec::Array<band::StepExtremes, Backend> extremes_{passes_.backend, 1};
   exec::Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};

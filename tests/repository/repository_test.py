@@ -14,7 +14,7 @@ ALLOWED = {
     "base": {"base"},
     "physics": {"base", "physics"},
     "config": {"base", "physics", "config"},
-    "mpm": {"base", "physics", "mpm"},
+    "mpm": {"base", "physics", "exec", "mpm"},
     "terrain": {"base", "physics", "mpm", "exec", "terrain"},
     "exec": {"base", "exec"},
     "band": {"base", "physics", "mpm", "exec", "band"},

@@ -5,7 +5,6 @@
 
 #include "base/instances.hpp"
 #include "config/scheduled_events.hpp"
-#include "sim/solver/front.hpp"
 
 namespace thawslide::sim {
 

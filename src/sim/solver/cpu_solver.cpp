@@ -6,13 +6,12 @@
 #include "band/averages.hpp"
 #include "band/heat.hpp"
 #include "base/instances.hpp"
-#include "base/parallel.hpp"
+#include "mpm/front_stage.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "sim/setup/release_stages.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/filter_times.hpp"
-#include "sim/solver/front.hpp"
 #include "sim/solver/time_step.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
@@ -295,13 +294,9 @@ BodySums<Dim> CpuSolver<Dim>::sum_over_body(const band::SumsOfParticle<Dim>& of_
 
 template <int Dim>
 mpm::PathSample CpuSolver<Dim>::front(const mpm::Transformation<Dim>& path, double mass) const {
+  exec::Cpu cpu;
   const std::vector<std::uint32_t>& order = slide_.grid.order();
-  std::vector<MassOnPath> masses(order.size());
-  parallel_for(order.size(), [&](std::size_t rank) {
-    const mpm::PathSample one = path.of(slide_.particles, order[rank]);
-    masses[rank] = {one.along, one.mass, rank};
-  });
-  return path.of(slide_.particles, order[front_of(masses, mass).rank]);
+  return mpm::Front<exec::Cpu, Dim>(cpu).find(path, mass, mpm::view_of(slide_.particles), order.data(), order.size());
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template class CpuSolver<Dim>;

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "sim/records/run_figures.hpp"
-#include "sim/solver/front.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -112,21 +111,6 @@ TEST(CentrePath, ContinuesFromItsState) {
     }
     EXPECT_EQ(second.state(), whole.state()) << stop;
   }
-}
-
-TEST(Front, LeavesHalfAPercentOfTheMassAhead) {
-  std::mt19937 random(3);
-  std::vector<MassOnPath> masses;
-  for (std::size_t k = 0; k < 1000; ++k) {
-    masses.push_back({static_cast<double>(k), 2.0, k});
-  }
-  std::shuffle(masses.begin(), masses.end(), random);
-  // 6 of 1000 particles are at or ahead of particle 994: less than 99.5 % are behind it.
-  EXPECT_EQ(front_of(masses, 2000.0).along, 994.0);
-  masses.assign(1, {5.0, 1.0, 0});
-  EXPECT_EQ(front_of(masses, 1.0).along, 5.0);
-  masses = {{0.0, 1.0, 0}, {1.0, 1e-6, 1}, {2.0, 1e-6, 2}};
-  EXPECT_EQ(front_of(masses, 1.0 + 2e-6).along, 0.0);
 }
 
 TEST(RunFigures, AngleOfReachIsTheSlopeFromTopToFront) {

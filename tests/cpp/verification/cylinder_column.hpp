@@ -1,8 +1,8 @@
 // Collapse of cylindrical granular columns on a flat DEM.
 #pragma once
 
+#include "../support/front_of.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "sim/solver/front.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification::cylinder_column {
@@ -21,14 +21,12 @@ inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspec
 template <int Dim>
 double runout(const Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
-  std::vector<sim::MassOnPath> by_radius;
-  double mass = 0.0;
+  std::vector<MassOnPath> by_radius;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vector<double, Dim> at = particles.position.template get<Vector<double, Dim>>(p) + simulation.model().origin;
-    by_radius.push_back({at.template head<Dim - 1>().norm(), particles.mass(p), p});
-    mass += particles.mass(p);
+    by_radius.push_back({at.template head<Dim - 1>().norm(), particles.mass(p)});
   }
-  return sim::front_of(by_radius, mass).along / radius - 1.0;
+  return front_of(by_radius) / radius - 1.0;
 }
 
 // Final runout of a quarter of the column, between smooth walls. aspect: height over radius; cell [m].

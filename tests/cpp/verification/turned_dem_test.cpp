@@ -1,6 +1,6 @@
 // Slides on DEMs that are rotated and shifted relative to the grid, or mirror-symmetric.
+#include "../support/front_of.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "sim/solver/front.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {
@@ -15,14 +15,12 @@ const Sets debris{fmt::format("time.end={}; time.step=0.003; grid.cell={}; basal
 // Mass-weighted position along a direction behind which 99.5 % of the mass of particles is located [m, absolute].
 double front_along(const Simulation<3>& simulation, const Place& direction) {
   const auto& particles = simulation.particles();
-  std::vector<sim::MassOnPath> on_path;
-  double mass = 0.0;
+  std::vector<MassOnPath> on_path;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Position position = particles.position.get<Position>(p) + simulation.model().origin;
-    on_path.push_back({direction.dot(position.head<2>()), particles.mass(p), p});
-    mass += particles.mass(p);
+    on_path.push_back({direction.dot(position.head<2>()), particles.mass(p)});
   }
-  return sim::front_of(on_path, mass).along;
+  return front_of(on_path);
 }
 
 // A slope of 31 degrees with a bend from x = 30 m to a plain, level from 70 m on.
