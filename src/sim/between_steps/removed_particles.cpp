@@ -57,13 +57,10 @@ mpm::Fault fault_of(const mpm::Particles<Dim>& particles, std::size_t p, const c
 template <int Dim>
 void mark_left_domain(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& extent,
                       std::vector<std::uint8_t>& marks) {
-  constexpr std::size_t of_a_task = 1024;
-  parallel_for((marks.size() + of_a_task - 1) / of_a_task, [&](std::size_t task) {
-    for (std::size_t p = task * of_a_task; p < std::min(marks.size(), (task + 1) * of_a_task); ++p) {
-      for (int a = 0; a < Dim && marks[p] == stays; ++a) {
-        if (particles.position(p, a) < 0.0 || particles.position(p, a) > extent[a]) {
-          marks[p] = has_left;
-        }
+  parallel_for(marks.size(), std::size_t{1024}, [&](std::size_t p) {
+    for (int a = 0; a < Dim && marks[p] == stays; ++a) {
+      if (particles.position(p, a) < 0.0 || particles.position(p, a) > extent[a]) {
+        marks[p] = has_left;
       }
     }
   });

@@ -1,6 +1,5 @@
 #include "sim/solver/device_solver.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "base/error.hpp"
@@ -22,13 +21,7 @@ bool any_has_left(const Model<Dim>& model, const std::vector<Vector<double, Dim>
     return (position.array() < 0.0).any() || (position.array() > extent.array()).any() ||
            (model.ground && !model.ground->is_known(position.template head<Dim - 1>()));
   };
-  constexpr std::size_t of_a_task = 1024;
-  return parallel_sum<std::size_t>(
-             (positions.size() + of_a_task - 1) / of_a_task, [&](std::size_t task, std::size_t& sum) {
-               for (std::size_t k = task * of_a_task; k < std::min(positions.size(), (task + 1) * of_a_task); ++k) {
-                 sum += left(positions[k]) ? 1 : 0;
-               }
-             }) > 0;
+  return parallel_any(positions.size(), [&](std::size_t k) { return left(positions[k]); });
 }
 
 }  // namespace
