@@ -64,35 +64,42 @@ struct FreeGaps {
   }
 };
 
-template <int Dim, class Particles>
-THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics& model, const HydraulicConductivity& hydraulic,
-                                               const FreeGaps& free_gaps, const Particles& particles, std::uint32_t p) {
-  using std::sqrt;
-  const std::int64_t id = particles.id(p);
-  const double porosity = particles.initial_porosity(p), saturation = particles.liquid_saturation(p);
-  const double storing = physics::storing_porosity(model.phases, porosity, model.skeleton_compressibility);
-  double speed2 = 0.0;
-  for (int a = 0; a < Dim; ++a) {
-    speed2 += particles.velocity(p, a) * particles.velocity(p, a);
-  }
-  StepExtremes found;
-  found.density = {particles.mass(p) / particles.volume(p), id};
-  found.elastic_density = {free_gaps.elastic_density(particles, p), id};
-  found.speed.raise({sqrt(speed2), id});
-  found.diffusivity.raise({physics::conductivity(model.phases, porosity, saturation) /
-                               physics::heat_capacity(model.phases, porosity, saturation),
-                           id});
-  found.seepage.raise(
-      {physics::hydraulic_diffusivity(model.phases, storing, 1.0, hydraulic(particles, mpm::ScalarIndex{{p}})), id});
-  found.pore_stiffness = physics::pore_stiffness(model.phases, storing, 1.0);
-  if (particles.ground_slope.is_kept()) {
-    double slope2 = 0.0;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      slope2 += particles.ground_slope(p, a) * particles.ground_slope(p, a);
+// Extremes of one particle.
+template <int Dim>
+struct ExtremesOfParticle {
+  BandPhysics model;
+  HydraulicConductivity hydraulic;
+  FreeGaps free_gaps;
+
+  template <class Particles>
+  THAWSLIDE_HD StepExtremes operator()(const Particles& particles, std::uint32_t p) const {
+    using std::sqrt;
+    const std::int64_t id = particles.id(p);
+    const double porosity = particles.initial_porosity(p), saturation = particles.liquid_saturation(p);
+    const double storing = physics::storing_porosity(model.phases, porosity, model.skeleton_compressibility);
+    double speed2 = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      speed2 += particles.velocity(p, a) * particles.velocity(p, a);
     }
-    found.slope = sqrt(slope2);
+    StepExtremes found;
+    found.density = {particles.mass(p) / particles.volume(p), id};
+    found.elastic_density = {free_gaps.elastic_density(particles, p), id};
+    found.speed.raise({sqrt(speed2), id});
+    found.diffusivity.raise({physics::conductivity(model.phases, porosity, saturation) /
+                                 physics::heat_capacity(model.phases, porosity, saturation),
+                             id});
+    found.seepage.raise(
+        {physics::hydraulic_diffusivity(model.phases, storing, 1.0, hydraulic(particles, mpm::ScalarIndex{{p}})), id});
+    found.pore_stiffness = physics::pore_stiffness(model.phases, storing, 1.0);
+    if (particles.ground_slope.is_kept()) {
+      double slope2 = 0.0;
+      for (int a = 0; a + 1 < Dim; ++a) {
+        slope2 += particles.ground_slope(p, a) * particles.ground_slope(p, a);
+      }
+      found.slope = sqrt(slope2);
+    }
+    return found;
   }
-  return found;
-}
+};
 
 }  // namespace thawslide::band

@@ -121,7 +121,7 @@ struct SetState {
 };
 
 // Kernels with one thread per candidate node (terrain/contact_stage.hpp): load on the ground and covered area; input of
-// the basal laws; friction and cohesion by the laws of one substrate.
+// the basal laws.
 template <int Dim>
 struct PressOnGround {
   NodeStageArgs<Dim> step;
@@ -146,30 +146,6 @@ struct GatherBasalNode {
     const double* state = columns != nullptr ? columns + k * mpm::BaseState::size<Dim> : nullptr;
     const std::size_t node = candidates[k];
     terrain::gather_basal_node(step, node, smallest_area, gravity, true, state, bases[k]);
-  }
-};
-template <class Law>
-struct EvaluateFriction {
-  Law law;
-  int substrate;
-  terrain::BasalNode* bases;
-
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    if (bases[k].area > 0.0 && bases[k].substrate == substrate) {
-      bases[k].set_friction(law);
-    }
-  }
-};
-template <class Law>
-struct EvaluateCohesion {
-  Law law;
-  int substrate;
-  terrain::BasalNode* bases;
-
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    if (bases[k].area > 0.0 && bases[k].substrate == substrate) {
-      bases[k].cohesion = law.cohesion(bases[k].state);
-    }
   }
 };
 

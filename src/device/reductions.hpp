@@ -2,7 +2,6 @@
 #pragma once
 
 #include "band/body_sums.hpp"
-#include "band/step_extremes.hpp"
 #include "mpm/kernel.hpp"
 #include "mpm/map_sums.hpp"
 
@@ -23,21 +22,6 @@ struct SumOf {
     sums = of(particles, at.particle[0]);
   }
 };
-
-// Extremes that determine the next step.
-template <int Dim>
-struct ExtremesOf {
-  band::BandPhysics physics;
-  band::HydraulicConductivity hydraulic;
-  band::FreeGaps free_gaps;
-
-  template <class Particles>
-  THAWSLIDE_HD band::StepExtremes operator()(const Particles& particles, std::uint32_t p) const {
-    return band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, p);
-  }
-};
-template <int Dim>
-using FindExtremes = SumOf<band::StepExtremes, ExtremesOf<Dim>>;
 
 struct MomentsOf {
   template <class Particles>

@@ -77,19 +77,7 @@ void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, con
   const double face = Dim == 2 ? cell : cell * cell;
   backend.for_each(count, GatherBasalNode<Dim>{step, candidates, static_cast<double>(terrain::smallest_area) * face,
                                                base.gravity, columns, bases});
-  for (std::size_t g = 0; g < base.grounds.size(); ++g) {
-    const int substrate = static_cast<int>(g);
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          backend.for_each(count, EvaluateFriction<Law>{law, substrate, bases});
-        },
-        base.grounds[g].friction);
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          backend.for_each(count, EvaluateCohesion<Law>{law, substrate, bases});
-        },
-        base.grounds[g].cohesion);
-  }
+  terrain::evaluate_basal_law(base, bases, [&](const auto& kernel) { backend.for_each(count, kernel); });
 }
 
 // Shape: shape functions of momentum (mpm/shape.hpp).
@@ -97,6 +85,7 @@ template <class Backend, class Shape, int Dim>
 class Step {
   using Passes = StepPasses<Backend, Shape, Dim>;
   using Sums = StepSums<Dim>;
+  using FindExtremes = SumOf<band::StepExtremes, band::ExtremesOfParticle<Dim>>;
 
  public:
   // Copies `count` particles from CPU memory.
@@ -309,7 +298,7 @@ class Step {
   void update_positions() {
     const UpdatePosition<Dim> update{
         {passes_.model.lower, passes_.model.upper}, passes_.model.mapping.has_ground, above_ground()};
-    const FindExtremes<Dim> extremes = extremes_kernel();
+    const FindExtremes extremes = extremes_kernel();
     const CountEscaped<Dim> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
       update_positions(update, extremes, escapes);
@@ -327,7 +316,7 @@ class Step {
             passes_.body_sizes(),
             static_cast<double>(passes_.model.cell)};
   }
-  [[nodiscard]] FindExtremes<Dim> extremes_kernel() const {
+  [[nodiscard]] FindExtremes extremes_kernel() const {
     return {{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}}};
   }
   [[nodiscard]] CountEscaped<Dim> escape_kernel() const {

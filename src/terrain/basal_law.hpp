@@ -44,11 +44,16 @@ struct BasalNode {
   // Coefficient mu_e, pore pressure that reduces friction [Pa], drag [Pa] and c_S [Pa].
   double friction = 0, relief = 0, drag = 0, cohesion = 0;
 
+  // Sets what a law of friction or cohesion determines.
   template <class Law>
-  THAWSLIDE_HD void set_friction(const Law& law) {
-    friction = law.coefficient(state);
-    drag = physics::basal::drag_of(law, state);
-    relief = Law::depends_on_pore_pressure ? state.pore_pressure : 0.0;
+  THAWSLIDE_HD void evaluate(const Law& law) {
+    if constexpr (requires { law.coefficient(state); }) {
+      friction = law.coefficient(state);
+      drag = physics::basal::drag_of(law, state);
+      relief = Law::depends_on_pore_pressure ? state.pore_pressure : 0.0;
+    } else {
+      cohesion = law.cohesion(state);
+    }
   }
   // Of the base, against sliding [Pa].
   [[nodiscard]] THAWSLIDE_HD double strength(physics::FrictionClamp clamp, bool cap_pressure) const {
@@ -56,31 +61,38 @@ struct BasalNode {
   }
 };
 
-// Calls work(node) for the nodes on one substrate that are in contact.
-template <class Work>
-void for_nodes_on(int substrate, std::span<BasalNode> nodes, const Work& work) {
-  for (BasalNode& node : nodes) {
-    if (node.area > 0.0 && node.substrate == substrate) {
-      work(node);
+// Evaluates a law at nodes in contact on one substrate.
+template <class Law>
+struct EvaluateLaw {
+  Law law;
+  int substrate;
+  BasalNode* nodes;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    if (nodes[k].area > 0.0 && nodes[k].substrate == substrate) {
+      nodes[k].evaluate(law);
     }
   }
-}
+};
 
-// Computes friction and cohesion of the nodes in contact. Laws are dispatched once, outside the loop over nodes.
-inline void evaluate_basal_law(const BasalLaw& law, std::span<BasalNode> nodes) {
+// Computes friction and cohesion of the nodes in contact. for_each(kernel): calls kernel(k) for all nodes. Laws are
+// dispatched once, outside the loop over nodes.
+template <class ForEach>
+void evaluate_basal_law(const BasalLaw& law, BasalNode* nodes, const ForEach& for_each) {
   for (std::size_t number = 0; number < law.grounds.size(); ++number) {
-    const int substrate = static_cast<int>(number);
-    std::visit(
-        [&](const auto& friction) {
-          for_nodes_on(substrate, nodes, [&](BasalNode& node) { node.set_friction(friction); });
-        },
-        law.grounds[number].friction);
-    std::visit(
-        [&](const auto& cohesion) {
-          for_nodes_on(substrate, nodes, [&](BasalNode& node) { node.cohesion = cohesion.cohesion(node.state); });
-        },
-        law.grounds[number].cohesion);
+    const auto evaluate = [&]<class Law>(const Law& one) {
+      for_each(EvaluateLaw<Law>{one, static_cast<int>(number), nodes});
+    };
+    std::visit(evaluate, law.grounds[number].friction);
+    std::visit(evaluate, law.grounds[number].cohesion);
   }
+}
+inline void evaluate_basal_law(const BasalLaw& law, std::span<BasalNode> nodes) {
+  evaluate_basal_law(law, nodes.data(), [&](const auto& kernel) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      kernel(k);
+    }
+  });
 }
 
 }  // namespace thawslide::terrain

@@ -113,14 +113,11 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
 template <int Dim>
 band::StepExtremes extremes_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles) {
   constexpr std::size_t of_a_task = 1024;
-  const std::vector<double>& conductivity = model.band.hydraulic_conductivity;
-  const band::HydraulicConductivity hydraulic{conductivity.data(), conductivity.size() == 1};
-  const band::FreeGaps free_gaps{model.free_gaps.data()};
+  const band::ExtremesOfParticle<Dim> of_particle{model.band, model.band.hydraulic(), {model.free_gaps.data()}};
   const std::size_t count = particles.size(), tasks = (count + of_a_task - 1) / of_a_task;
   return parallel_sum<band::StepExtremes>(tasks, [&](std::size_t task, band::StepExtremes& found) {
     for (std::size_t p = task * of_a_task; p < std::min(count, (task + 1) * of_a_task); ++p) {
-      found +=
-          band::extremes_of_particle<Dim>(model.band, hydraulic, free_gaps, particles, static_cast<std::uint32_t>(p));
+      found += of_particle(particles, static_cast<std::uint32_t>(p));
     }
   });
 }
