@@ -81,8 +81,8 @@ struct NodeStageArgs {
   NodeViews<Dim> nodes;
   mpm::PrescribedMotion<Dim> motion;
   Vector<double, Dim> gravity;
-  double cell, mass_damping, time, dt;
-  bool distance_check, pore_pressure, base_is_fixed;
+  double cell, time, dt;
+  terrain::ContactOptions options;
 
   [[nodiscard]] THAWSLIDE_HD WallsOfNode<Dim> walls(std::size_t node) const {
     return {motion, position_of_node<Dim>(tables.block_keys, node, cell), time};
@@ -218,7 +218,7 @@ struct ResolveContact {
   THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, terrain::NodeState<Dim>& state, Sum& work) const {
     const terrain::BasalNode& base = bases[candidate];
     const double strength =
-        step.base_is_fixed ? std::numeric_limits<double>::infinity() : base.strength(clamp, cap_pressure);
+        step.options.base_is_fixed ? std::numeric_limits<double>::infinity() : base.strength(clamp, cap_pressure);
     terrain::touch_ground(step, node, base, strength, heat_fraction,
                           beds.below(candidate, base.area, strength, step.dt, state.mass), state, work);
   }

@@ -42,7 +42,7 @@ template <class Backend, int Dim, class... Words>
 std::unique_ptr<Solver<Dim>> steps_on(const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles,
                                       std::size_t count, HostCallbacks<Dim> callbacks, const Words&... backend) {
   std::unique_ptr<Solver<Dim>> made;
-  mpm::with_shape(model.shape, [&](auto shape) {
+  mpm::with_shape(model.motion.shape, [&](auto shape) {
     made = std::make_unique<SolverImpl<Backend, decltype(shape), Dim>>(model, particles, count, std::move(callbacks),
                                                                        backend...);
   });

@@ -33,35 +33,18 @@ struct DeformMaterial {
 
   // Parameters of mpm::Deform.
   Law law;
-  physics::Elastic elastic;
+  mpm::MaterialParameters material;
   physics::Phases phases;
-  bool gaps_close_first;
-  double viscosity_time;
   bool effective_stress;
   double dt;
-  std::int32_t material;
-  bool is_only_one;  // all particles have this material
-
-  // Kernel for material m of a step model.
-  template <class Model>
-  static DeformMaterial of(const Law& law, const Model& model, std::size_t m, double dt) {
-    const auto& material = model.materials[m];
-    return {law,
-            material.elastic,
-            model.phases,
-            material.gaps_close_first,
-            material.viscosity_time,
-            model.effective_stress,
-            dt,
-            static_cast<std::int32_t>(m),
-            model.materials.size() == 1};
-  }
+  std::int32_t number;  // of the material
+  bool is_only_one;     // all particles have this material
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Totals& totals) const {
-    if (is_only_one || particles.material(at.particle[0]) == material) {
-      const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};
+    if (is_only_one || particles.material(at.particle[0]) == number) {
+      const Kernel deform{law, material, phases, effective_stress, dt};
       deform(particles, at, seen, added, totals);
     }
   }
@@ -216,8 +199,9 @@ class Step {
   }
 
   void add_momentum() {
-    passes_.run(passes_.momentum(), mpm::AddMomentum<Dim>{passes_.model.gravity, passes_.model.effective_stress,
-                                                          passes_.model.is_viscous()});
+    passes_.run(passes_.momentum(),
+                mpm::AddMomentum<Dim>{passes_.model.motion.gravity, passes_.model.motion.effective_stress,
+                                      passes_.model.motion.viscous()});
     passes_.if_affine(
         [&](const auto& weights) { passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim>{}); });
     passes_.template sum<mpm::Momentum, void>(AllTiles{});
@@ -227,7 +211,8 @@ class Step {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = SeesCandidates<Dim>{passes_.cells.tables().tile_keys};
-      passes_.run(passes_.momentum(sees), terrain::AddNearGround<Dim>{passes_.model.phases, passes_.model.lubrication});
+      passes_.run(passes_.momentum(sees),
+                  terrain::AddNearGround<Dim>{passes_.model.motion.phases, passes_.model.motion.lubrication});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
                             band_columns_.states(), bases_.data());
@@ -262,7 +247,9 @@ class Step {
 
   void move(double time, double dt) {
     using Kernel = mpm::Move<Dim>;
-    passes_.keep(&passes_.run(passes_.momentum(), Kernel{passes_.model.affine ? 1.0 : passes_.model.pic_fraction, dt})
+    passes_.keep(&passes_
+                      .run(passes_.momentum(),
+                           Kernel{passes_.model.motion.is_affine() ? 1.0 : passes_.model.motion.pic_fraction, dt})
                       ->template of<Kernel>(),
                  &sums_.data()->particle_kinetic);
     passes_.if_affine([&](const auto& weights) {
@@ -271,7 +258,7 @@ class Step {
       passes_.backend.for_each(1, Add<double>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
     });
     passes_.backend.for_each(1, Fill<double>{&sums_.data()->filtered, 0.0});
-    if (passes_.model.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
+    if (passes_.model.motion.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
       filter_velocities(passes_, &sums_.data()->filtered);
     }
     passes_.template sum<mpm::Velocity, void>(AllTiles{});
@@ -282,15 +269,19 @@ class Step {
   }
 
   void update_stress(double dt) {
+    const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
     passes_.backend.for_each(1, Fill<mpm::Deformed>{&sums_.data()->deformed, {}});
-    for (std::size_t m = 0; m < passes_.model.materials.size(); ++m) {
+    for (std::int32_t number = 0; const mpm::MaterialModel& material : motion.materials) {
       std::visit(
           [&]<class Law>(const Law& law) {
             using Kernel = DeformMaterial<Dim, Law>;
-            const auto* all = passes_.run(passes_.momentum(), Kernel::of(law, passes_.model, m, dt));
+            const auto* all =
+                passes_.run(passes_.momentum(), Kernel{law, material, motion.phases, motion.effective_stress, dt,
+                                                       number, motion.materials.size() == 1});
             passes_.backend.for_each(1, Add<mpm::Deformed>{&all->template of<Kernel>(), &sums_.data()->deformed});
           },
-          passes_.model.materials[m].law);
+          material.law);
+      ++number;
     }
   }
 

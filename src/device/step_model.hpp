@@ -1,7 +1,6 @@
 // Data exchanged between the run and a step on a device: model and host callbacks.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -13,15 +12,14 @@
 #include "device/step_sums.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/mapping.hpp"
-#include "mpm/material.hpp"
+#include "mpm/parameters.hpp"
 #include "mpm/prescribed_motion.hpp"
 #include "mpm/records.hpp"
-#include "mpm/shape.hpp"
 #include "mpm/tile.hpp"
-#include "physics/mixture.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/bed.hpp"
 #include "terrain/column_heights.hpp"
+#include "terrain/contact_stage.hpp"
 #include "terrain/ground_at_node.hpp"
 
 namespace thawslide::device {
@@ -30,30 +28,18 @@ template <int Dim>
 struct StepModel {
   double cell = 0;  // mesh size [m]
   mpm::Mapping mapping;
-  terrain::ColumnChunks<Dim> columns;                    // of nodes; only with ground
-  std::vector<double> half_sizes;                        // of particles, by body, in cells
-  mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
-  bool affine = false;                                   // APIC
-  bool moves = true;                                     // off: heat and pore pressure only
-  mpm::PrescribedSides<Dim> sides;                       // with prescribed velocity
-  Vector<double, Dim> gravity;                           // [m/s2]
-  double pic_fraction = 0;                               // fraction of PIC in new velocities
-  int filter_order = 0;                                  // of the velocity filter; 0: none
+  terrain::ColumnChunks<Dim> columns;  // of nodes; only with ground
+  std::vector<double> half_sizes;      // of particles, by body, in cells
+  mpm::MotionParameters<Dim> motion;
+  bool moves = true;  // off: heat and pore pressure only
   std::function<bool(double time, double dt)> filters_in_step;
-  double mass_damping = 0;  // [1/s]
-  std::vector<mpm::MaterialModel> materials;
-  physics::Phases phases;
-  bool effective_stress = false;  // pore pressure also acts inside the body
-  bool lubrication = true;        // off: the base uses the initial porosity and saturation
   mpm::DomainFaces<Dim> faces;
   std::vector<mpm::RigidFrame<Dim>> frames;
   Vector<double, Dim> lower, upper;  // bounds of particle positions [m]
   bool finds_extremes = false;       // StepSums::extremes is required
   bool counts_escaped = false;       // StepSums::escapes is required
   terrain::BasalLaw base;
-  bool base_is_fixed = false;     // no slip
-  bool pore_pressure = true;      // off: P = 0 at contact nodes
-  bool distance_check = false;    // contact acts only after a node has closed its clearance
+  terrain::ContactOptions contact;
   bool pressure_changes = false;  // off: pore pressures are constant
   // Heat of particles, with the masses at t = 0 and the secant of their heat content.
   bool heat = false;   // off: temperatures are constant
@@ -70,10 +56,6 @@ struct StepModel {
   [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
   [[nodiscard]] bool has_seepage() const {
     return pressure_changes && band::water_may_seep(band, hydraulic_conductivity);
-  }
-  [[nodiscard]] bool is_viscous() const {
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const auto& material) { return material.viscosity_time > 0.0; });
   }
 };
 

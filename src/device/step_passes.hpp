@@ -44,11 +44,11 @@ class StepPasses {
   Marks<Backend, Dim> marks{backend};
 
   [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
-  [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.sides}; }
+  [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.motion.sides}; }
   // Calls work(weights) with the weights of APIC if the model uses it.
   template <class Work>
   void if_affine(const Work& work) const {
-    if (model.affine) {
+    if (model.motion.is_affine()) {
       work(AffineWeights<Shape, Dim>{weights()});
     }
   }
@@ -97,14 +97,11 @@ class StepPasses {
     return {cells.tables(),
             views(),
             {model.faces, frames_.data(), frames_.size()},
-            model.gravity,
+            model.motion.gravity,
             model.cell,
-            model.mass_damping,
             time,
             dt,
-            model.distance_check,
-            model.pore_pressure,
-            model.base_is_fixed};
+            model.contact};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).

@@ -50,7 +50,7 @@ void filter_velocities(StepPasses<Backend, Shape, Dim>& passes, double* gained) 
   passes.template sum<mpm::FilterMoments, void>(AllTiles{});
   passes.run(passes.momentum(), mpm::AddFilterMomentum<Dim>{});
   make_increments(true);
-  for (int order = 2; order <= passes.model.filter_order; ++order) {
+  for (int order = 2; order <= passes.model.motion.filter_order; ++order) {
     passes.run(passes.momentum(), mpm::SweepFilter<Dim>{});
     make_increments(false);
   }

@@ -14,7 +14,7 @@ namespace {
 template <int Dim, class Work>
 void with_weights(const MotionModel<Dim>& model, const Work& work) {
   const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
-  if (model.transfer == TransferKind::apic) {
+  if (model.is_affine()) {
     work(AffineWeights<Dim>{weights});
   } else {
     work(weights);

@@ -1,44 +1,20 @@
 // Momentum on the grid and motion of particles (Eqs. 6, 10-14): the stages without terrain and heat.
 #pragma once
 
-#include <algorithm>
-#include <vector>
-
 #include "mpm/body_sizes.hpp"
 #include "mpm/constraints.hpp"
 #include "mpm/kernel_totals.hpp"
-#include "mpm/material.hpp"
 #include "mpm/nodes.hpp"
+#include "mpm/parameters.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
-#include "physics/mixture.hpp"
 
 namespace thawslide::mpm {
 
-// Velocity transfer from nodes to particles: changes (FLIP, Eq. 13) with a fraction of nodal velocities (PIC), or nodal
-// velocities with the affine velocity around the particle (APIC; Jiang et al. 2015).
-enum class TransferKind { flip_pic, apic };
-
 template <int Dim>
-struct MotionModel {
-  [[nodiscard]] bool viscous() const {
-    return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialModel& material) { return material.viscosity_time > 0.0; });
-  }
-
-  ShapeFunction shape = ShapeFunction::ugimp;
-  PrescribedSides<Dim> sides;
-  TransferKind transfer = TransferKind::flip_pic;
-  double pic_fraction = 0;      // of TransferKind::flip_pic; 0: FLIP
-  int filter_order = 0;         // of the velocity filter (mpm/velocity_filter.hpp); 0: none
-  SectionWidth width;           // of a 2D section
-  Vector<double, Dim> gravity;  // [m/s2]
-  double mass_damping = 0;      // [1/s]
-  BodySizes sizes;              // of particles, in cells
-  std::vector<MaterialModel> materials;
-  physics::Phases phases;
-  bool effective_stress = false;  // stress is effective: the pore pressure also acts inside the body
-  bool lubrication = true;        // off: Eq. 25 uses the initial porosity and saturation (Sec. 3.3)
+struct MotionModel : MotionParameters<Dim> {
+  SectionWidth width;  // of a 2D section
+  BodySizes sizes;     // of particles, in cells
 };
 
 // Converts total to effective stress, sigma + P I, of particles at memory index `first` and above.

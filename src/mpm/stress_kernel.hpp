@@ -7,7 +7,7 @@
 #include "base/linear.hpp"
 #include "base/select.hpp"
 #include "mpm/kernel_totals.hpp"
-#include "mpm/material.hpp"
+#include "mpm/parameters.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 #include "mpm/splitting.hpp"
@@ -32,10 +32,8 @@ struct Deform {
   using Totals = Deformed;
 
   const Law& law;
-  const physics::Elastic& elastic;
+  const MaterialParameters& material;
   const physics::Phases& phases;
-  bool gaps_close_first;  // physics/tension_gap.hpp
-  double viscosity_time;  // Kelvin-Voigt [s]
   bool effective_stress;  // pore pressure also acts inside the body
   double dt;
   Width width{};
@@ -57,8 +55,8 @@ struct Deform {
     const Tensor old_stress = particles.stress.template load_vector<6>(at);
     const Value volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
     const Value closing =
-        gaps_close_first ? physics::closing_strain(particles.gap.load(at), volume_strain) : Value(0.0);
-    const Tensor change = physics::stress_increment(elastic, physics::borne_strain(increment.strain, closing));
+        material.gaps_close_first ? physics::closing_strain(particles.gap.load(at), volume_strain) : Value(0.0);
+    const Tensor change = physics::stress_increment(material.elastic, physics::borne_strain(increment.strain, closing));
     Tensor stress = physics::rotate<Value, Dim>(old_stress, increment.rotation) + change;
     Value plastic_work_density, opening;
     admit(particles, at, stress, plastic_work_density, opening);
@@ -70,12 +68,12 @@ struct Deform {
       const Value pressure = (stress[0] + stress[1] + stress[2]) * (1.0 / 3.0);
       at.add_to(work.plastic, volume * (plastic_work_density - closing * pressure));
     }
-    if (viscosity_time > 0.0) {
-      const Tensor viscous = Value(viscosity_time / dt) * change;
+    if (material.viscosity_time > 0.0) {
+      const Tensor viscous = Value(material.viscosity_time / dt) * change;
       at.add_to(work.viscous, volume * double_contraction<Value>(viscous, increment.strain));
       particles.viscous_stress.store_vector(at, viscous);
     }
-    if (gaps_close_first) {
+    if (material.gaps_close_first) {
       particles.gap.store(at, particles.gap.load(at) + (opening - closing));
     }
     if (effective_stress) {
@@ -153,9 +151,7 @@ struct UpdateStress {
                                           Totals& totals) const {
     const MaterialModel& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
     const auto deform = [&]<class Law>(const Law& law) {
-      const Deform<Dim, Law, Width> with_law{
-          law,  material.elastic, phases, material.gaps_close_first, material.viscosity_time, effective_stress, dt,
-          width};
+      const Deform<Dim, Law, Width> with_law{law, material, phases, effective_stress, dt, width};
       with_law(particles, at, seen, added, totals);
     };
     std::visit(deform, material.law);

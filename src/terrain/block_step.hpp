@@ -35,9 +35,7 @@ class BlockStep {
       : nodes{of_grid},
         time(time),
         dt(dt),
-        mass_damping(model.mass_damping),
-        distance_check(model.distance_check),
-        pore_pressure(model.pore_pressure),
+        options(model),
         block(block),
         candidates(ground != nullptr ? ground->candidates(block) : 0),
         grid_(grid),
@@ -46,8 +44,8 @@ class BlockStep {
         constraints_(grid, constraints, block, time) {}
 
   NodesOfGrid<Dim> nodes;
-  double time, dt, mass_damping;
-  bool distance_check, pore_pressure;
+  double time, dt;
+  const ContactOptions& options;
   std::size_t block;
   std::size_t candidates;  // its first nodes (GroundOnGrid)
 

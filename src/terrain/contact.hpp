@@ -6,23 +6,19 @@
 #include "mpm/constraints.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/section_width.hpp"
-#include "terrain/basal_law.hpp"
 #include "terrain/bed_on_grid.hpp"
+#include "terrain/contact_stage.hpp"
 #include "terrain/contact_work.hpp"
 #include "terrain/strength_law.hpp"
 
 namespace thawslide::terrain {
 
 template <int Dim>
-struct ContactModel {
+struct ContactModel : ContactOptions {
   BasalLaw law;
-  mpm::SectionWidth width;      // of a 2D section
-  bool base_is_fixed = false;   // no slip, during gravity settling
-  bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
-  bool reads_mass = true;       // the laws depend on P, T, S, n_e or the slip of the mass at nodes
-  bool band_columns = false;    // the basal state is that of nodes.base_state
-  double mass_damping = 0;      // [1/s]
-  bool distance_check = false;  // contact acts only after a node has closed its clearance
+  mpm::SectionWidth width;    // of a 2D section
+  bool reads_mass = true;     // the laws depend on P, T, S, n_e or the slip of the mass at nodes
+  bool band_columns = false;  // the basal state is that of nodes.base_state
 };
 
 // Fills nodes.base of the blocks with candidate nodes: load on the ground and covered area. Requires the clearance in

@@ -10,13 +10,21 @@
 
 namespace thawslide::terrain {
 
+// Options of contact at a node.
+struct ContactOptions {
+  bool base_is_fixed = false;   // no slip, during gravity settling
+  bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  bool distance_check = false;  // contact acts only after a node has closed its clearance
+  double mass_damping = 0;      // [1/s]
+};
+
 template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool has_mass(const Step& step, const Node& node) {
   return step.nodes.momentum_at(node)[mpm::MomentumLayout<Step::dim>::mass] > 0.0;
 }
 template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE NodeState<Step::dim> trial_of(const Step& step, const Node& node) {
-  return trial_state<Step::dim>(step.walls(node), step.dt, step.mass_damping, step.nodes.momentum_at(node));
+  return trial_state<Step::dim>(step.walls(node), step.dt, step.options.mass_damping, step.nodes.momentum_at(node));
 }
 // Clearance of a candidate node along the normal of the ground [m].
 template <class Step, class Node>
@@ -32,7 +40,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double load_on_ground(const Step& step, con
   }
   const auto& ground = step.ground(node);
   const auto state = trial_of(step, node);
-  return ground.bend * approach(step.distance_check, clearance_of(step, node), step.dt, state.mass,
+  return ground.bend * approach(step.options.distance_check, clearance_of(step, node), step.dt, state.mass,
                                 state.momentum.dot(ground.normal));
 }
 
@@ -71,13 +79,14 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void gather_basal_node(const Step& step, co
   base.substrate = step.ground(node).substrate;
   const auto& normal = step.ground(node).normal;
   const bool on_columns = columns != nullptr && columns[mpm::BaseState::area] > 0.0;
-  base.state = on_columns || !reads_mass
-                   ? loaded_node<Dim>(pressure, normal, trial_of(step, node))
-                   : contact_node_of<Dim>(
-                         step.nodes.state_at(node), step.nodes.averages_at(node)[mpm::Averages::volume],
-                         step.nodes.near_ground_at(node), pressure, step.pore_pressure, normal, trial_of(step, node));
+  base.state =
+      on_columns || !reads_mass
+          ? loaded_node<Dim>(pressure, normal, trial_of(step, node))
+          : contact_node_of<Dim>(step.nodes.state_at(node), step.nodes.averages_at(node)[mpm::Averages::volume],
+                                 step.nodes.near_ground_at(node), pressure, step.options.pore_pressure, normal,
+                                 trial_of(step, node));
   if (columns != nullptr) {
-    set_columns_state(columns, step.pore_pressure, base.state);
+    set_columns_state(columns, step.options.pore_pressure, base.state);
   }
   base.state.time = step.time;
   base.state.unit_weight = unit_weight_of<Dim>(step.nodes.momentum_at(node), gravity);
@@ -103,7 +112,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void store_motion(const Step& step, const N
                                                        ContactWork<Step::dim>& work) {
   const auto walls = step.walls(node);
   auto* motion = step.nodes.motion_at(node);
-  finish_node<Step::dim>(state, walls.any(), step.mass_damping, step.dt, work, motion);
+  finish_node<Step::dim>(state, walls.any(), step.options.mass_damping, step.dt, work, motion);
   if (walls.is_held()) {
     work.constraint_impulse -= state.constraint_impulse;
     work.force -= state.constraint_impulse / step.dt;
@@ -117,7 +126,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double map_back_node(const Step& step, cons
   if (!has_mass(step, node)) {
     return 0.0;
   }
-  const GroundOfMappedBack<Step::dim> below{touching, step.distance_check,
+  const GroundOfMappedBack<Step::dim> below{touching, step.options.distance_check,
                                             touching ? &step.ground(node).normal : nullptr,
                                             touching ? clearance_of(step, node) : 0.0};
   auto* velocity = step.nodes.velocity_at(node);

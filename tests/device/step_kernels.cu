@@ -115,9 +115,8 @@ __global__ void pass(TileOnDevice<Dim> tile, Results<Dim, Kernel<Dim>> to, Kerne
 
 template <int Dim, class Law>
 __global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Law>> to, Law law,
-                       physics::Elastic elastic, physics::Phases phases, bool gaps, double viscosity_time,
-                       bool effective_stress, double dt) {
-  const mpm::Deform<Dim, Law> kernel{law, elastic, phases, gaps, viscosity_time, effective_stress, dt};
+                       mpm::MaterialParameters material, physics::Phases phases, bool effective_stress, double dt) {
+  const mpm::Deform<Dim, Law> kernel{law, material, phases, effective_stress, dt};
   visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
@@ -244,9 +243,9 @@ void instantiate() {
   pass<Dim, mpm::AddFilterMomentum><<<1, 128>>>(tile, {}, {});
   pass<Dim, mpm::SweepFilter><<<1, 128>>>(tile, {}, {});
   pass<Dim, mpm::ApplyFiltered><<<1, 128>>>(tile, {}, {});
-  deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
-  deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
-  deform<Dim, physics::MohrCoulomb<true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
+  deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0);
+  deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0);
+  deform<Dim, physics::MohrCoulomb<true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0);
   heat_flows<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   heat_flows<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   secant_capacity<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, 0);

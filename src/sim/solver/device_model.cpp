@@ -38,20 +38,10 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   for (std::size_t body = 0; body < model.body_names.size(); ++body) {
     device.half_sizes.push_back(model.motion.sizes.half(body));
   }
-  device.shape = model.motion.shape;
-  device.affine = model.motion.transfer == mpm::TransferKind::apic;
+  device.motion = model.motion;
   device.moves = parameters.mechanics.enabled;
-  device.sides = model.motion.sides;
-  device.gravity = model.motion.gravity;
-  device.pic_fraction = model.motion.pic_fraction;
-  device.filter_order = model.motion.filter_order;
   device.filters_in_step = [parameters](double time, double dt) { return filters_in_step(parameters, time, dt); };
-  device.mass_damping = model.contact.mass_damping;
-  device.materials = model.motion.materials;
   device.free_gaps = model.free_gaps;
-  device.phases = model.motion.phases;
-  device.effective_stress = model.motion.effective_stress;
-  device.lubrication = model.motion.lubrication;
   device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
   device.frames = model.constraints.frames;
   // Particles that will be removed may leave the domain before the end of the step.
@@ -63,9 +53,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.counts_escaped =
       parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
   device.base = model.contact.law;
-  device.base_is_fixed = model.contact.base_is_fixed;
-  device.pore_pressure = model.contact.pore_pressure;
-  device.distance_check = model.contact.distance_check;
+  device.contact = model.contact;
   const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
   device.pressure_changes = model.band.pressure && !has_columns;
   device.heat = model.band.heat && !has_columns;

@@ -111,7 +111,7 @@ sim::PathLine bent_line() {
 template <int Dim>
 std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) {
   mpm::MonitorKernel<Dim> kernel;
-  kernel.gravity = model_of_slide<Dim>().gravity;
+  kernel.gravity = model_of_slide<Dim>().motion.gravity;
   kernel.origin.setZero();
   kernel.fast_distance = 6.0 * time_step;
   kernel.smallest_volume = 0.1;

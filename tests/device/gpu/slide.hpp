@@ -131,10 +131,10 @@ device::StepModel<Dim> model_of_slide() {
   model.columns.columns.fill(1);  // others have the same height
   model.columns.chunks.fill(1);
   model.half_sizes = {0.5 / static_cast<double>(per_axis)};
-  model.gravity.setZero();
-  model.gravity[0] = 9.81 * std::sin(slope * pi / 180.0);
-  model.gravity[Dim - 1] = -9.81 * std::cos(slope * pi / 180.0);
-  model.pic_fraction = 0.01;
+  model.motion.gravity.setZero();
+  model.motion.gravity[0] = 9.81 * std::sin(slope * pi / 180.0);
+  model.motion.gravity[Dim - 1] = -9.81 * std::cos(slope * pi / 180.0);
+  model.motion.pic_fraction = 0.01;
   mpm::MaterialModel material;
   material.elastic = physics::Elastic::from_young_poisson(1e8, 0.3);
   const double friction_angle = 30.0 * pi / 180.0;
@@ -144,13 +144,13 @@ device::StepModel<Dim> model_of_slide() {
                                                                  .residual_cohesion = 1e3,
                                                                  .tension_cutoff = 1e3,
                                                                  .residual_friction_angle = friction_angle});
-  model.materials = {material};
+  model.motion.materials = {material};
   model.free_gaps = {1.0};
-  model.phases = phases();
+  model.motion.phases = phases();
   model.heat = true;
   model.heat_content = heat_content();
   model.pressure_changes = true;
-  model.band.phases = model.phases;
+  model.band.phases = model.motion.phases;
   model.band.gravity = 9.81;
   model.band.frozen_rows = band::FrozenRows::vented;
   model.band.ice_presses = false;
@@ -166,7 +166,7 @@ device::StepModel<Dim> model_of_slide() {
   model.upper = model.faces.extent;
   model.base.grounds[0].friction = physics::basal::ConstantFriction{std::tan(20.0 * pi / 180.0)};
   model.base.grounds[0].cohesion = physics::basal::ConstantCohesion{0.0};
-  model.distance_check = true;
+  model.contact.distance_check = true;
   model.finds_extremes = model.counts_escaped = true;
   return model;
 }
@@ -175,7 +175,7 @@ device::StepModel<Dim> model_of_slide() {
 template <int Dim>
 band::SumsOfParticle<Dim> sums_of_particle() {
   band::SumsOfParticle<Dim> of_particle;
-  of_particle.gravity = model_of_slide<Dim>().gravity;
+  of_particle.gravity = model_of_slide<Dim>().motion.gravity;
   of_particle.origin.setZero();
   of_particle.phases = phases();
   of_particle.latent = of_particle.melt_contracts = true;

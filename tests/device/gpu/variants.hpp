@@ -35,17 +35,17 @@ device::StepModel<Dim> model_of(Variant variant) {
   device::StepModel<Dim> model = model_of_slide<Dim>();
   switch (variant) {
     case Variant::elastic:
-      model.materials[0].law = physics::LinearElastic{};
+      model.motion.materials[0].law = physics::LinearElastic{};
       break;
     case Variant::quadratic:
-      model.shape = mpm::ShapeFunction::quadratic;
+      model.motion.shape = mpm::ShapeFunction::quadratic;
       break;
     case Variant::apic:
-      model.shape = mpm::ShapeFunction::quadratic;
-      model.affine = true;
+      model.motion.shape = mpm::ShapeFunction::quadratic;
+      model.motion.transfer = mpm::TransferKind::apic;
       break;
     case Variant::filtered:
-      model.filter_order = 2;
+      model.motion.filter_order = 2;
       model.filters_in_step = [](double /*time*/, double /*dt*/) { return true; };
       break;
     case Variant::heated_face:
