@@ -58,20 +58,4 @@ struct AddSeepingWater {
   }
 };
 
-// averages, state: records of Averages and NodalState. Returns false, with a state of 0, if no particle is near.
-template <int Dim, class Averaged, class State>
-THAWSLIDE_HD bool set_nodal_state(const Averaged& averages, State& state) {
-  using mpm::Averages, mpm::NodalState;
-  for (std::size_t c = 0; c < mpm::record_size(NodalState::template size<Dim>); ++c) {
-    state[c] = 0.0;
-  }
-  if (!(averages[Averages::volume] > 0.0)) {
-    return false;
-  }
-  const double inverse_volume = 1.0 / averages[Averages::volume];
-  state[NodalState::temperature] = averages[Averages::temperature] * inverse_volume;
-  state[NodalState::pore_pressure] = averages[Averages::pore_pressure] * inverse_volume;
-  return true;
-}
-
 }  // namespace thawslide::band

@@ -115,7 +115,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(co
 template <int Dim, class Law>
 struct SecantCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
-  using Adds = mpm::RecordList<mpm::HeatRates>;
+  using Adds = mpm::RecordList<mpm::SecantRates>;
   using Totals = mpm::NoTotals;
 
   Law law;
@@ -132,7 +132,7 @@ struct SecantCapacity {
       secant = select(negligible, secant, law.secant(particles, at, change));
       particles.secant_capacity.store(at, secant);
     }
-    auto& rates = added.template of<mpm::HeatRates>();
+    auto& rates = added.template of<mpm::SecantRates>();
     const Value capacity = particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * secant;
     rates.value[mpm::HeatRates::capacity] = capacity;
     rates.value[mpm::HeatRates::subgrid] = capacity * particles.conduction_in_cell.load(at);

@@ -1,36 +1,28 @@
-// Nodal part of drain_pore_pressure and average_seeping_water, for one node. For host and device.
+// Seepage at a node in a step. For host and device. Nodes: as in band/nodal_state.hpp.
 #pragma once
 
 #include "base/portability.hpp"
 #include "mpm/records.hpp"
-#include "physics/mixture.hpp"
 
 namespace thawslide::band {
 
-// Pressure change of a node by seepage in a step [Pa], Eq. 22. sums: record of Seepage.
-template <class Sums>
-THAWSLIDE_HD double pressure_change(const Sums& sums, double dt) {
-  using mpm::Seepage;
-  return sums[Seepage::pore_space] > 0.0
-             ? (dt * sums[Seepage::inflow] - sums[Seepage::subgrid]) / sums[Seepage::pore_space]
-             : 0.0;
-}
+// Pressure change by seepage (Eq. 22). Sums what frozen pores absorb: pressure change times their pore space [Pa m3].
+template <class Nodes>
+struct SolveSeepage {
+  using Totals = double;
 
-// Seepage absorbed by frozen pores at a node [Pa m3]: pressure change of the node times their pore space.
-template <class Sums>
-THAWSLIDE_HD double absorbed_by_frozen(const Sums& sums, double change) {
-  return (sums[mpm::Seepage::pore_space] - sums[mpm::Seepage::seeping]) * change;
-}
-// Mass of that water [kg].
-inline THAWSLIDE_HD double mass_of_absorbed(const physics::Phases& phases, double absorbed) {
-  return phases.water_density / phases.water_bulk_modulus * absorbed;
-}
+  Nodes nodes;
+  double dt;
 
-// Pore pressure of a node with seeping water [Pa]. water: record of SeepingWater.
-template <class Water>
-THAWSLIDE_HD double seeping_pressure(const Water& water) {
-  const double volume = water[mpm::SeepingWater::volume];
-  return volume > 0.0 ? water[mpm::SeepingWater::pore_pressure] / volume : 0.0;
-}
+  template <class Node>
+  THAWSLIDE_HD void operator()(const Node& node, double& absorbed) const {
+    using mpm::Seepage;
+    const double* sums = nodes.template read<Seepage>(node);
+    const double pore_space = sums[Seepage::pore_space];
+    const double change = pore_space > 0.0 ? (dt * sums[Seepage::inflow] - sums[Seepage::subgrid]) / pore_space : 0.0;
+    nodes.template write<mpm::NodalState>(node)[mpm::NodalState::pressure_change] = change;
+    absorbed += (pore_space - sums[Seepage::seeping]) * change;
+  }
+};
 
 }  // namespace thawslide::band

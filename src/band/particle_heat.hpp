@@ -2,6 +2,8 @@
 // factor V0/xi, the volume that heat acts on, is not included.
 #pragma once
 
+#include <type_traits>
+
 #include "base/portability.hpp"
 
 namespace thawslide::band {
@@ -33,6 +35,8 @@ struct CurrentMasses {
 
 template <class Content, class Masses>
 struct ParticleHeat {
+  static constexpr bool masses_change = std::is_same_v<Masses, CurrentMasses>;
+
   Content content;
 
   // H [J/m3] at the particle's temperature.

@@ -18,14 +18,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandPhysics& model
   return particles.previous_temperature.load(at) >= model.reference_temperature;
 }
 
-// True if water seeps to or from any of the particles: melted before and permeable.
-template <class Particles, class At>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any_seeped(const BandPhysics& model, const HydraulicConductivity& hydraulic,
-                                                     const Particles& particles, const At& at) {
-  const auto melted = melted_before(model, particles, at);
-  return any(melted) && any(melted & (hydraulic(particles, at) > 0.0));
-}
-
 // Pressures of liquid and pore [Pa].
 template <class Value>
 struct Pressures {
@@ -123,6 +115,15 @@ struct DrainedWater {
     mass += part.mass;
     heat += part.heat;
     return *this;
+  }
+};
+// Water lost by particles in one step: at the surface, with its heat, and to frozen pores.
+struct WaterLoss {
+  DrainedWater drained;
+  double absorbed = 0;  // pressure change times frozen pore space [Pa m3]
+
+  [[nodiscard]] double vented(const physics::Phases& phases) const {  // [kg]
+    return phases.water_density / phases.water_bulk_modulus * absorbed;
   }
 };
 

@@ -83,21 +83,37 @@ THAWSLIDE_HD void mix_in(const BandPhysics& model, const Law& law, bool has_wate
   }
 }
 
-// Sets the scaling of a particle; sums the heat [J] that this adds at constant temperature and pressure.
-template <class Law, class Particles>
-THAWSLIDE_HD void rescale_particle(const BandPhysics& model, const Law& law, bool has_water, double scaling,
-                                   std::uint32_t p, Particles& particles, double& added) {
-  const double old = particles.thermal_scaling(p);
-  if (scaling == old) {
-    return;
+// Kernel (mpm/kernel.hpp) that sets the scaling of particles at memory index `first` and above; sums the heat [J] that
+// this adds at constant temperature and pressure. has_water: pore pressures change.
+template <int Dim, class Law>
+struct RescaleBand {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Totals = double;
+
+  BandPhysics model;
+  Law law;
+  bool has_water;
+  BandScaling<Dim> scaling;
+  std::size_t first;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               double& added_heat) const {
+    at.for_each([&](std::uint32_t p) {
+      const double old = particles.thermal_scaling(p), now = scaling.of(particles, p);
+      if (p < first || now == old) {
+        return;
+      }
+      const bool mixes = model.rescaling_mixes && now < old;
+      const double heat = mixes ? particles.initial_heat_content(p) : particles.heat_content(p);
+      added_heat += particles.initial_volume(p) * heat * (1.0 / now - 1.0 / old);
+      particles.thermal_scaling(p) = now;
+      if (mixes) {
+        mix_in(model, law, has_water, now / old, p, particles);
+      }
+    });
   }
-  const bool mixes = model.rescaling_mixes && scaling < old;
-  const double heat = mixes ? particles.initial_heat_content(p) : particles.heat_content(p);
-  added += particles.initial_volume(p) * heat * (1.0 / scaling - 1.0 / old);
-  particles.thermal_scaling(p) = scaling;
-  if (mixes) {
-    mix_in(model, law, has_water, scaling / old, p, particles);
-  }
-}
+};
 
 }  // namespace thawslide::band

@@ -1,4 +1,4 @@
-// Contributions of particles to the columns of the sliding mass (band/slide_columns.hpp) on a device.
+// Contributions of particles to the columns of the sliding mass (band/slide_columns.hpp) on a device, and their load.
 #pragma once
 
 #include "band/columns_of_tile.hpp"
@@ -70,6 +70,28 @@ struct SumInTile {
     }
     return sum;
   }
+};
+
+// Normal load of a particle, from columns that hold the load per depth in place of the cosine.
+template <class Columns>
+struct AddPressureLoad {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Totals = mpm::NoTotals;
+
+  struct InTile {
+    typename Columns::OfTile columns;
+
+    template <class Particles, class At, class Seen, class Scatter>
+    THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                                 Totals& /*totals*/) const {
+      band::update_load(particles, at.particle[0], columns.flow_depth(particles, at));
+    }
+  };
+
+  Columns columns;  // by tile
+
+  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const { return InTile{columns.of_tile(tile)}; }
 };
 
 }  // namespace thawslide::device

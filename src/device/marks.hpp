@@ -7,12 +7,14 @@
 
 namespace thawslide::device {
 
-// Marks the tiles with a node or particle that meets a condition. One thread group per tile. Asks provides
-// of_node(node), numbered over all blocks, and of_particle(particle).
+// Marks the tiles with a particle that meets a condition (band/tile_conditions.hpp), or near a node that does. One
+// thread group per tile.
 template <class Condition, int Dim>
 struct MarkTiles {
   using T = mpm::Tile<Dim>;
   TileTables<Dim> tables;
+  mpm::ParticleView<Dim> particles;
+  const double* records;  // of nodes, that the condition reads
   Condition condition;
   std::uint8_t* marks;
 
@@ -22,15 +24,19 @@ struct MarkTiles {
     const std::size_t first = tables.first_of_cell[tile * nodes], last = tables.first_of_cell[(tile + 1) * nodes];
     group.each(1, [this, tile](std::size_t /*k*/) { marks[tile] = 0; });
     group.barrier();
-    group.each(static_cast<std::size_t>(T::patch_nodes), [this, tile](std::size_t k) {
-      const NodeInBlock<Dim> found = node_in_block<Dim>(k);
-      const std::int32_t block = tables.blocks_about_tile[tile * stencil + found.direction];
-      if (condition.of_node(static_cast<std::size_t>(block) * nodes + found.node)) {
-        marks[tile] = 1;  // benign race: all threads write the same value
-      }
-    });
+    using Name = typename Condition::Reads;
+    if constexpr (!std::is_void_v<Name>) {
+      group.each(static_cast<std::size_t>(T::patch_nodes), [this, tile](std::size_t k) {
+        constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
+        const NodeInBlock<Dim> found = node_in_block<Dim>(k);
+        const std::int32_t block = tables.blocks_about_tile[tile * stencil + found.direction];
+        if (condition.of_node(records + (static_cast<std::size_t>(block) * nodes + found.node) * size)) {
+          marks[tile] = 1;  // benign race: all threads write the same value
+        }
+      });
+    }
     group.each(last - first, [this, tile, first](std::size_t k) {
-      if (condition.of_particle(tables.order[first + k])) {
+      if (condition.of_particles(particles, mpm::ScalarIndex{{tables.order[first + k]}})) {
         marks[tile] = 1;
       }
     });
@@ -96,9 +102,11 @@ class Marks {
   }
 
   template <class Condition>
-  void mark_tiles(const TileTables<Dim>& tables, const Condition& condition) {
+  void mark_tiles(const TileTables<Dim>& tables, const mpm::ParticleView<Dim>& particles, const double* records,
+                  const Condition& condition) {
     constexpr std::size_t threads = 128;
-    backend_.for_groups(tables.tiles, threads, 0, MarkTiles<Condition, Dim>{tables, condition, tiles_.data()});
+    backend_.for_groups(tables.tiles, threads, 0,
+                        MarkTiles<Condition, Dim>{tables, particles, records, condition, tiles_.data()});
   }
   void mark_blocks(const TileTables<Dim>& tables) {
     backend_.for_each(tables.blocks, MarkBlocks<Dim>{tables, tiles_.data(), blocks_.data()});

@@ -1,11 +1,9 @@
-// Device kernels of nodes: nodal state, contact with the ground and velocities mapped back, using the same functions as
+// Device kernels of nodes: contact with the ground and velocities mapped back, using the same functions as
 // the CPU stages.
 #pragma once
 
 #include <limits>
 
-#include "band/averages_kernel.hpp"
-#include "band/heat_face.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/records.hpp"
@@ -100,23 +98,6 @@ struct NodeStageArgs {
         tables.blocks_about_block[node / block_nodes * stencil + static_cast<std::size_t>(adjacent.direction)];
     found = static_cast<std::size_t>(block) * block_nodes + static_cast<std::size_t>(adjacent.local);
     return block != absent;
-  }
-};
-
-// Sets the temperature and pore pressure of a node, with prescribed temperatures on faces of the domain.
-template <int Dim>
-struct SetState {
-  NodeViews<Dim> nodes;
-  const std::uint64_t* block_keys;
-  band::HeatFaces<Dim> faces;
-  bool has_faces;
-  double cell;
-
-  THAWSLIDE_HD void operator()(std::size_t node) const {
-    double* state = nodes.state_at(node);
-    if (band::set_nodal_state<Dim>(static_cast<const double*>(nodes.averages_at(node)), state) && has_faces) {
-      band::prescribe_temperature(faces.at(position_of_node<Dim>(block_keys, node, cell)), state);
-    }
   }
 };
 
@@ -227,18 +208,12 @@ struct ResolveContact {
 // Velocities from the momentum that particles map back.
 template <int Dim>
 struct MapBack {
-  using Part = double;
-  using Sum = double;
+  using Totals = double;
 
   NodeStageArgs<Dim> step;
 
-  THAWSLIDE_HD void visit(std::size_t node, Part& work) const {
-    work = terrain::map_back_node(step, node, step.nodes.contact_at(node)[mpm::Contact::touching] > 0.0, step.gravity);
-  }
-  THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
-    for (std::size_t k = 0; k < count; ++k) {
-      sum += parts[k];
-    }
+  THAWSLIDE_HD void operator()(std::size_t node, double& work) const {
+    work += terrain::map_back_node(step, node, step.nodes.contact_at(node)[mpm::Contact::touching] > 0.0, step.gravity);
   }
 };
 

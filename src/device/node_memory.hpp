@@ -7,6 +7,29 @@
 
 namespace thawslide::device {
 
+// Access to records of nodes by name (as mpm::NodeAccess). A node is its number over all blocks.
+template <int Dim, class... Names>
+struct NodeAccess {
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+
+  mpm::ByName<mpm::Named<Names, double*>...> numbers;
+  const std::uint64_t* block_keys;
+  double cell;
+
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD double* write(std::size_t node) const {
+    return numbers.template of<Name>() + node * mpm::record_size(mpm::components_of<Name, Dim>);
+  }
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD const double* read(std::size_t node) const {
+    return write<Name>(node);
+  }
+  [[nodiscard]] THAWSLIDE_HD static std::size_t block(std::size_t node) { return node / block_nodes; }
+  [[nodiscard]] THAWSLIDE_HD Vector<double, Dim> position(std::size_t node) const {
+    return position_of_node<Dim>(block_keys, node, cell);
+  }
+};
+
 template <class Backend, int Dim>
 class NodeMemory {
  public:
@@ -30,6 +53,10 @@ class NodeMemory {
   [[nodiscard]] const exec::Array<double, Backend>& of() const {
     return records_.template of<Name>();
   }
+  template <class... Names>
+  [[nodiscard]] NodeAccess<Dim, Names...> access(const std::uint64_t* block_keys, double cell) {
+    return {{{of<Names>().data()}...}, block_keys, cell};
+  }
   // known: ground data by node; null without ground.
   [[nodiscard]] NodeViews<Dim> views(const terrain::GroundAtNode<Dim>* known) {
     return {of<mpm::Averages>().data(),
@@ -47,8 +74,8 @@ class NodeMemory {
   Backend& backend_;
   exec::Array<double, Backend> base_{backend_};
   NodeArrays<Backend, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
-             mpm::Velocity, mpm::HeatRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
-             mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>
+             mpm::Velocity, mpm::HeatRates, mpm::SecantRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater,
+             mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>
       records_{backend_};
 };
 

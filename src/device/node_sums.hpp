@@ -40,6 +40,7 @@ struct SumPatches {
 
   TileTables<Dim> tables;
   TileFilter accepts;
+  const std::uint8_t* blocks;  // marks of blocks with nodes to sum at; null: all
   const double* patches;
   double* records;
 
@@ -48,6 +49,9 @@ struct SumPatches {
     constexpr auto nodes = static_cast<std::size_t>(T::nodes);
     constexpr std::size_t own = static_cast<std::size_t>(T::stencil) / 2;
     const std::size_t component = k % size, node = k / size % nodes, block = k / size / nodes;
+    if (blocks != nullptr && blocks[block] == 0) {
+      return;
+    }
     const bool min_reduced = is_min_reduced(component);
     double sum = min_reduced ? std::numeric_limits<double>::max() : 0.0;
     if (!min_reduced) {

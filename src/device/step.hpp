@@ -87,7 +87,6 @@ class Step {
       // Not those of the CPU, which may contract products and sums: a restart would not have the same bits.
       backend.for_each(count, VisitInMemory<Dim, LocateParticle<Dim>>{passes_.particles.view(), {above_ground()}});
     }
-    sums_.set(std::vector<Sums>(1));
     free_gaps_.set(model.free_gaps);
   }
 
@@ -104,6 +103,7 @@ class Step {
 
   // Advances the solution by dt [s], from time [s].
   Sums step(double time, double dt) {
+    passes_.backend.for_each(1, Fill<Sums>{sums_.data(), {}});
     find_cells();
     passes_.backend.end_stage("find_cells");
     if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
@@ -123,7 +123,7 @@ class Step {
       band_.conduct_heat(dt);
       passes_.backend.end_stage("conduct_heat");
     }
-    if (passes_.model.pressure_changes) {
+    if (passes_.model.band.pressure) {
       band_.drain_pore_pressure(dt);
       passes_.backend.end_stage("drain_pore_pressure");
     }
@@ -257,20 +257,15 @@ class Step {
       const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
       passes_.backend.for_each(1, Add<double>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
     });
-    passes_.backend.for_each(1, Fill<double>{&sums_.data()->filtered, 0.0});
     if (passes_.model.motion.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
       filter_velocities(passes_, &sums_.data()->filtered);
     }
-    passes_.template sum<mpm::Velocity, void>(AllTiles{});
-    const std::size_t blocks = passes_.cells.tables().blocks;
-    passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim>{passes_.nodes_in_step(time, dt)},
-                                 passes_.memory.template sums<double>(partial_sum_count(blocks))),
+    passes_.keep(passes_.template solve<mpm::Velocity>(nullptr, MapBack<Dim>{passes_.nodes_in_step(time, dt)}),
                  &sums_.data()->mapped_back);
   }
 
   void update_stress(double dt) {
     const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
-    passes_.backend.for_each(1, Fill<mpm::Deformed>{&sums_.data()->deformed, {}});
     for (std::int32_t number = 0; const mpm::MaterialModel& material : motion.materials) {
       std::visit(
           [&]<class Law>(const Law& law) {

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "band/columns.hpp"
-#include "band/heat_face.hpp"
-#include "band/physics.hpp"
-#include "band/pressure_kernels.hpp"
+#include "band/parameters.hpp"
 #include "device/step_sums.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/mapping.hpp"
@@ -40,22 +38,13 @@ struct StepModel {
   bool counts_escaped = false;       // StepSums::escapes is required
   terrain::BasalLaw base;
   terrain::ContactOptions contact;
-  bool pressure_changes = false;  // off: pore pressures are constant
-  // Heat of particles, with the masses at t = 0 and the secant of their heat content.
-  bool heat = false;   // off: temperatures are constant
   bool starts = true;  // the next step is the first one, from t = 0
-  band::AnyHeatContent heat_content;
-  band::HeatFaces<Dim> heat_faces;
-  band::BandPhysics band;
-  std::vector<double> hydraulic_conductivity;         // by material [m/s]
+  band::BandParameters<Dim> band;
   std::vector<double> free_gaps;                      // as in band::FreeGaps
   std::function<double(double time)> band_thickness;  // [m]; 0: no band, xi = 1
   bool rescales_band = true;                          // off: scaling is constant
-  bool scales_all = true;                             // scaling also applies outside the band
 
-  [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
-  [[nodiscard]] bool has_seepage() const {
-    return pressure_changes && band::water_may_seep(band, hydraulic_conductivity);
+  [[nodiscard]] bool has_band() const { return band.heat || band.pressure; }
   }
 };
 

@@ -14,111 +14,6 @@
 
 namespace thawslide::device {
 
-// Shape: shape functions of momentum (mpm/shape.hpp).
-template <class Backend, class Shape, int Dim>
-class StepPasses {
- public:
-  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-
-  // Copies `count` particles from CPU memory.
-  StepPasses(Backend& used, const StepModel<Dim>& known, const mpm::ParticleView<Dim>& of_cpu, std::size_t count,
-             const GroundQuery<Dim>& query_ground)
-      : backend(used),
-        model(known),
-        particles(used, of_cpu, count),
-        cells(used, known.cell, known.mapping),
-        ground(used, query_ground),
-        sizes_(used, known.half_sizes, 1.0) {
-    frames_.set(known.frames);
-  }
-  StepPasses(const StepPasses&) = delete;
-  StepPasses& operator=(const StepPasses&) = delete;
-
-  Backend& backend;
-  StepModel<Dim> model;
-  Particles<Backend, Dim> particles;
-  Cells<Backend, Dim> cells;
-  Ground<Backend, Dim> ground;
-  NodeMemory<Backend, Dim> nodes{backend};
-  PassMemory<Backend> memory{backend};
-  Marks<Backend, Dim> marks{backend};
-
-  [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
-  [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.motion.sides}; }
-  // Calls work(weights) with the weights of APIC if the model uses it.
-  template <class Work>
-  void if_affine(const Work& work) const {
-    if (model.motion.is_affine()) {
-      work(AffineWeights<Shape, Dim>{weights()});
-    }
-  }
-  // Pass arguments with linear shape functions, or with those of momentum.
-  template <class TileFilter = AllTiles>
-  [[nodiscard]] auto linear(const TileFilter& accepts = {}) const {
-    return over(LinearWeights{}, accepts);
-  }
-  template <class TileFilter = AllTiles>
-  [[nodiscard]] auto momentum(const TileFilter& accepts = {}) const {
-    return over(weights(), accepts);
-  }
-  template <class Weights, class TileFilter>
-  [[nodiscard]] PassOver<Weights, TileFilter, Dim> over(const Weights& weights, const TileFilter& accepts) const {
-    return {cells.tables(), particles.view(), weights, accepts, model.cell, model.mapping};
-  }
-  template <class Over, class... Kernels>
-  SumsOf<Kernels...>* run(const Over& over, const Kernels&... kernels) {
-    return particle_pass(backend, memory, over, *this, kernels...);
-  }
-  template <class Name, class MinReduced, class TileFilter>
-  void sum(const TileFilter& accepts) {
-    const std::size_t numbers = of<Name>().size();
-    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim>{cells.tables(), accepts, memory.patches(0),
-                                                                            of<Name>().data()});
-  }
-  // of: as in SumOf.
-  template <class Of, class Sum>
-  Sum sum_over_particles(const Of& of, exec::Array<Sum, Backend>& sum) {
-    using Kernel = SumOf<Sum, Of>;
-    keep(&run(linear(), Kernel{of})->template of<Kernel>(), sum.data());
-    return sum.get(0);
-  }
-  // Copies a sum from memory that the next pass reuses.
-  template <class Sum>
-  void keep(const Sum* from, Sum* to) {
-    backend.for_each(1, Keep<Sum>{from, to});
-  }
-
-  template <class Name>
-  [[nodiscard]] exec::Array<double, Backend>& of() {
-    return nodes.template of<Name>();
-  }
-  [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
-  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(double time, double dt) {
-    return {cells.tables(),
-            views(),
-            {model.faces, frames_.data(), frames_.size()},
-            model.motion.gravity,
-            model.cell,
-            time,
-            dt,
-            model.contact};
-  }
-
-  // Nodal records that a pass reads (device/passes.hpp).
-  template <class Name>
-  [[nodiscard]] const double* numbers() const {
-    if constexpr (std::is_same_v<Name, mpm::Planes>) {
-      return ground.records();
-    } else {
-      return nodes.template of<typename mpm::OwnerOf<Name>::Type>().data();
-    }
-  }
-
- private:
-  BodySizes<Backend> sizes_;
-  exec::Array<mpm::RigidFrame<Dim>, Backend> frames_{backend};
-};
-
 // Work provides visit(node, part), which fills the part of one node (numbered over all blocks), and add(parts, count,
 // sum), which reduces the parts of one block.
 template <class Work, int Dim>
@@ -155,5 +50,188 @@ typename Work::Sum* block_pass(Backend& backend, std::size_t blocks, const Work&
   backend.for_groups(blocks, Pass::nodes, Pass::bytes, Pass{work, sums});
   return add_up(backend, sums, blocks);
 }
+
+// Work of a block pass that calls solve(node, total) at the nodes of blocks with a mark. blocks: marks; null: all.
+template <class Solve, int Dim>
+struct SolveAtNodes {
+  using Part = typename Solve::Totals;
+  using Sum = Part;
+
+  Solve solve;
+  const std::uint8_t* blocks;
+
+  THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
+    if (blocks == nullptr || blocks[node / static_cast<std::size_t>(mpm::Tile<Dim>::nodes)] != 0) {
+      solve(node, part);
+    }
+  }
+  THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += parts[k];
+    }
+  }
+  THAWSLIDE_HD void operator()(std::size_t node) const {
+    Part none;
+    visit(node, none);
+  }
+};
+
+// Shape: shape functions of momentum (mpm/shape.hpp).
+template <class Backend, class Shape, int Dim>
+class StepPasses {
+ public:
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+
+  // Copies `count` particles from CPU memory.
+  StepPasses(Backend& used, const StepModel<Dim>& known, const mpm::ParticleView<Dim>& of_cpu, std::size_t count,
+             const GroundQuery<Dim>& query_ground)
+      : backend(used),
+        model(known),
+        particles(used, of_cpu, count),
+        cells(used, known.cell, known.mapping),
+        ground(used, query_ground),
+        sizes_(used, known.half_sizes, 1.0) {
+    frames_.set(known.frames);
+  }
+  StepPasses(const StepPasses&) = delete;
+  StepPasses& operator=(const StepPasses&) = delete;
+
+  Backend& backend;
+  StepModel<Dim> model;
+  Particles<Backend, Dim> particles;
+  Cells<Backend, Dim> cells;
+  Ground<Backend, Dim> ground;
+  NodeMemory<Backend, Dim> nodes{backend};
+  PassMemory<Backend> memory{backend};
+  Marks<Backend, Dim> marks{backend};
+
+  [[nodiscard]] double cell() const { return model.cell; }
+  [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
+  [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.motion.sides}; }
+  // Calls work(weights) with the weights of APIC if the model uses it.
+  template <class Work>
+  void if_affine(const Work& work) const {
+    if (model.motion.is_affine()) {
+      work(AffineWeights<Shape, Dim>{weights()});
+    }
+  }
+  // Pass arguments with linear shape functions, or with those of momentum.
+  template <class TileFilter = AllTiles>
+  [[nodiscard]] auto linear(const TileFilter& accepts = {}) const {
+    return over(LinearWeights{}, accepts);
+  }
+  template <class TileFilter = AllTiles>
+  [[nodiscard]] auto momentum(const TileFilter& accepts = {}) const {
+    return over(weights(), accepts);
+  }
+  template <class Weights, class TileFilter>
+  [[nodiscard]] PassOver<Weights, TileFilter, Dim> over(const Weights& weights, const TileFilter& accepts) const {
+    return {cells.tables(), particles.view(), weights, accepts, model.cell, model.mapping};
+  }
+  template <class Over, class... Kernels>
+  SumsOf<Kernels...>* run(const Over& over, const Kernels&... kernels) {
+    return particle_pass(backend, memory, over, *this, kernels...);
+  }
+  template <class Over, class Kernel>
+  void total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
+    keep(&run(over, kernel)->template of<Kernel>(), to);
+  }
+  // blocks: marks of those to sum at; null: all.
+  template <class Name, class MinReduced, class TileFilter>
+  void sum(const TileFilter& accepts, const std::uint8_t* blocks = nullptr) {
+    backend.for_each(of<Name>().size(), SumPatches<Name, MinReduced, TileFilter, Dim>{
+                                            cells.tables(), accepts, blocks, memory.patches(0), of<Name>().data()});
+  }
+  // As mpm::StepPasses::solve. Returns a pointer to the total, valid until the next pass, if there is one.
+  template <class Name, class Solve>
+  auto solve(const std::uint8_t* blocks, const Solve& solve, bool others = false) {
+    sum<Name, void>(AllTiles{}, blocks);
+    const std::size_t all = cells.tables().blocks;
+    const SolveAtNodes<Solve, Dim> work{solve, others ? nullptr : blocks};
+    if constexpr (std::is_same_v<typename Solve::Totals, mpm::NoTotals>) {
+      backend.for_each(all * block_nodes, work);
+    } else {
+      using Totals = typename Solve::Totals;
+      return block_pass<Dim>(backend, all, work, memory.template sums<Totals>(partial_sum_count(all)));
+    }
+  }
+  // of: as in SumOf.
+  template <class Of, class Sum>
+  Sum sum_over_particles(const Of& of, exec::Array<Sum, Backend>& sum) {
+    using Kernel = SumOf<Sum, Of>;
+    keep(&run(linear(), Kernel{of})->template of<Kernel>(), sum.data());
+    return sum.get(0);
+  }
+  // Copies a sum from memory that the next pass reuses.
+  template <class Sum>
+  void keep(const Sum* from, std::type_identity_t<Sum>* to) {
+    backend.for_each(1, Keep<Sum>{from, to});
+  }
+  // Only the device knows counts.
+  [[nodiscard]] static bool is_known_zero(const std::uint64_t* /*count*/) { return false; }
+
+  // As in mpm::StepPasses.
+  template <class Condition>
+  void mark(const Condition& condition) {
+    mark_tiles(condition);
+    marks.mark_blocks(cells.tables());
+  }
+  template <class Condition>
+  [[nodiscard]] bool mark_around(const Condition& condition) {
+    mark(condition);
+    return marks.mark_tiles_about(cells.tables());
+  }
+  template <class Condition>
+  [[nodiscard]] MarkedTiles in_reach(const Condition& condition) {
+    mark_tiles(condition);
+    return marks.tiles();
+  }
+  [[nodiscard]] MarkedTiles marked_tiles() const { return marks.tiles(); }
+  [[nodiscard]] const std::uint8_t* marked_blocks() const { return marks.blocks(); }
+
+  template <class Name>
+  [[nodiscard]] exec::Array<double, Backend>& of() {
+    return nodes.template of<Name>();
+  }
+  [[nodiscard]] auto node_access() {
+    return nodes.template access<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::Contact, mpm::HeatRates,
+                                 mpm::SecantRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater>(
+        cells.tables().block_keys, model.cell);
+  }
+  [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
+  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(double time, double dt) {
+    return {cells.tables(),
+            views(),
+            {model.faces, frames_.data(), frames_.size()},
+            model.motion.gravity,
+            model.cell,
+            time,
+            dt,
+            model.contact};
+  }
+
+  // Nodal records that a pass reads (device/passes.hpp).
+  template <class Name>
+  [[nodiscard]] const double* numbers() const {
+    if constexpr (std::is_same_v<Name, mpm::Planes>) {
+      return ground.records();
+    } else {
+      return nodes.template of<typename mpm::OwnerOf<Name>::Type>().data();
+    }
+  }
+
+ private:
+  template <class Condition>
+  void mark_tiles(const Condition& condition) {
+    const double* records = nullptr;
+    if constexpr (!std::is_void_v<typename Condition::Reads>) {
+      records = numbers<typename Condition::Reads>();
+    }
+    marks.mark_tiles(cells.tables(), particles.view(), records, condition);
+  }
+
+  BodySizes<Backend> sizes_;
+  exec::Array<mpm::RigidFrame<Dim>, Backend> frames_{backend};
+};
 
 }  // namespace thawslide::device

@@ -22,8 +22,7 @@ struct StepSums {
   mpm::Deformed deformed;
   double band_rescale = 0;  // heat added by changes of scaling
   band::HeatGain heat;
-  band::DrainedWater drained;    // at the surface
-  double vented = 0;             // water lost to frozen pores [kg]
+  band::WaterLoss water;
   mpm::InvalidParticle invalid;  // after particles have moved
   band::StepExtremes extremes;
   mpm::BodyContactWork between_bodies;  // of bodies that do not share nodes

@@ -14,10 +14,10 @@ using RecordsOf = NodeRecords<Dim, components_of<Name, Dim>>;
 template <class Name, int Dim>
 using SparseRecordsOf = SparseRecords<Dim, components_of<Name, Dim>>;
 
-// Marks of temperature changes and seepage: tiles with such particles, and the blocks in their reach.
+// Tiles and blocks to which a pass is restricted (mpm/step_passes.hpp).
 struct ActivityMarks {
-  std::vector<std::uint8_t> changing_tiles, changing_blocks;
-  std::vector<std::uint8_t> seeping_tiles, seeping_blocks;
+  std::vector<std::uint8_t> tiles, blocks;
+  std::vector<std::uint64_t> rows;  // by tile: rows of its patch (Tile::rows_from)
 };
 
 template <int Dim>
@@ -39,9 +39,9 @@ struct Nodes {
   SparseRecordsOf<Contact, Dim> contact;
   SparseRecordsOf<NearGround, Dim> near_ground{pool};
   SparseRecordsOf<UnreachedHeat, Dim> unreached_heat;
-  SparseRecordsOf<BaseState, Dim> base_state;    // with band columns
-  SparseRecordsOf<HeatRates, Dim> secant_rates;  // with the secant capacity, in blocks with temperature changes
-  SparseRecordsOf<Seepage, Dim> seepage{pool};   // in blocks that water can seep to
+  SparseRecordsOf<BaseState, Dim> base_state;            // with band columns
+  SparseRecordsOf<SecantRates, Dim> secant_rates{pool};  // in blocks with temperature changes
+  SparseRecordsOf<Seepage, Dim> seepage{pool};           // in blocks that water can seep to
   SparseRecordsOf<SeepingWater, Dim> seeping_water{pool};
   ActivityMarks marks;
 

@@ -173,6 +173,11 @@ struct HeatRates {
   static auto& in(auto& nodes) { return nodes.heat_rates; }
 };
 
+// The same with the secant capacity, where it differs: added to the patches of HeatRates.
+struct SecantRates : HeatRates {
+  static auto& in(auto& nodes) { return nodes.secant_rates; }
+};
+
 // Friction heat of nodes without linear weight, per mass [W/kg].
 struct UnreachedHeat {
   using Functions = MomentumFunctions;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "band/heat.hpp"
+#include "band/new_particles.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "sim/between_steps/entrainment.hpp"

@@ -1,6 +1,6 @@
 #include "sim/between_steps/new_particles.hpp"
 
-#include "band/heat.hpp"
+#include "band/new_particles.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/between_steps/splitting.hpp"

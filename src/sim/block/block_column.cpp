@@ -4,9 +4,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "band/averages.hpp"
-#include "band/heat.hpp"
-#include "band/pore_pressure.hpp"
+#include "band/new_particles.hpp"
+#include "band/stages_on_cpu.hpp"
 #include "terrain/near_ground_kernel.hpp"
 
 namespace thawslide::sim {
@@ -77,20 +76,18 @@ void BlockColumn::set_normal_load(double normal_pressure) {
 }
 
 double BlockColumn::step(const BlockDrive& drive) {
-  band::rescale_band<2>(grid_, model_, drive.band_thickness, rows_);
-  band::average_on_grid(grid_, model_, rows_, nodes_);
-  band::average_seeping_water(grid_, model_, rows_, nodes_);
+  const band::StagesOnCpu<2> stages{grid_, model_, rows_, nodes_};
+  stages.rescale_band(drive.band_thickness);
+  stages.average_on_grid();
   const double before = heat();
-  if (model_.heat) {
-    for (const mpm::NodeAt& node : base_nodes_) {
-      nodes_.contact.of_block(node.block)[node.node][mpm::Contact::friction_heat] =
-          drive.heat_flux / static_cast<double>(base_nodes_.size());
-    }
-    band::conduct_heat(grid_, model_, drive.dt, false, nodes_, rows_);
+  for (const mpm::NodeAt& node : base_nodes_) {
+    nodes_.contact.of_block(node.block)[node.node][mpm::Contact::friction_heat] =
+        drive.heat_flux / static_cast<double>(base_nodes_.size());
   }
+  stages.conduct_heat(drive.dt, false);
   if (model_.pressure) {
     set_normal_load(drive.normal_pressure);
-    band::drain_pore_pressure(grid_, model_, flow_depth_, drive.dt, nodes_, rows_);
+    stages.drain_pore_pressure(flow_depth_, drive.dt);
   }
   return heat() - before;
 }

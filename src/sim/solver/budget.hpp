@@ -109,9 +109,9 @@ void add_step(const StepSums<Dim>& sums, const Setup<Dim>& setup, bool has_bed, 
   budget.advection += sums.heat.advection;
   budget.capacity_heat += sums.heat.capacity;
   budget.porosity_heat += sums.heat.porosity;
-  budget.drained_water += sums.drained.mass;
-  budget.drained_heat += sums.drained.heat;
-  budget.vented_water += sums.vented;
+  budget.drained_water += sums.water.drained.mass;
+  budget.drained_heat += sums.water.drained.heat;
+  budget.vented_water += sums.water.vented(model.band.phases);
 }
 
 }  // namespace thawslide::sim

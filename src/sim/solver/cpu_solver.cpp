@@ -3,8 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "band/averages.hpp"
-#include "band/heat.hpp"
+#include "band/new_particles.hpp"
 #include "base/instances.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/sum_over_particles.hpp"
@@ -59,13 +58,11 @@ StepSums<Dim> CpuSolver<Dim>::step(double dt, const terrain::StrengthLaw* streng
     if (!model.band.rescaling_mixes) {
       rescale_band();
     }
-    sums.heat = conduct_heat(dt);
+    if (!base_.columns) {  // otherwise, the body's temperature is constant
+      sums.heat = band_stages().conduct_heat(dt, clock_.step_number == 0);
+    }
   });
-  stopwatch_.time("drain_pore_pressure", [&] {
-    const band::WaterLoss loss = drain_pore_pressure(dt);
-    sums.drained = loss.drained;
-    sums.vented = loss.vented;
-  });
+  stopwatch_.time("drain_pore_pressure", [&] { sums.water = drain_pore_pressure(dt); });
   stopwatch_.time("update_positions", [&] { sums.invalid = update_positions(); });
   sums.band_rescale = std::exchange(rescaling_heat_, 0.0);
   return sums;
@@ -88,7 +85,7 @@ template <int Dim>
 void CpuSolver<Dim>::average_band_on_grid(bool reads_mass) {
   const Model<Dim>& model = setup_.model;
   if (!base_.columns && ((model.ground && reads_mass) || model.band.heat || model.band.pressure)) {
-    band::average_on_grid(slide_.grid, model.band, slide_.particles, nodes_);
+    band_stages().average_on_grid();
   }
 }
 
@@ -112,7 +109,7 @@ void CpuSolver<Dim>::press_on_ground(double dt, bool reads_mass) {
   }
   terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, clock_.time, dt, nodes_);
   if (base_.columns && reads_mass && terrain::loads_bare_ground(slide_.grid, nodes_)) {
-    band::average_on_grid(slide_.grid, model.band, slide_.particles, nodes_);
+    band_stages().average_on_grid();
     terrain::near_ground_to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
   }
 }
@@ -168,18 +165,7 @@ void CpuSolver<Dim>::rescale_band() {
     return;
   }
   band_thickness_ = thickness;
-  rescaling_heat_ += band::rescale_band(slide_.grid, model.band, thickness, slide_.particles);
-}
-
-template <int Dim>
-band::HeatGain CpuSolver<Dim>::conduct_heat(double dt) {
-  const band::BandModel<Dim>& model = setup_.model.band;
-  if (base_.columns) {  // the body's temperature is constant
-    return {};
-  }
-  band::average_seeping_water(slide_.grid, model, slide_.particles, nodes_);
-  return model.heat ? band::conduct_heat(slide_.grid, model, dt, clock_.step_number == 0, nodes_, slide_.particles)
-                    : band::HeatGain{};
+  rescaling_heat_ += band_stages().rescale_band(thickness);
 }
 
 template <int Dim>
@@ -189,7 +175,7 @@ band::WaterLoss CpuSolver<Dim>::drain_pore_pressure(double dt) {
   }
   update_flow_depth();
   update_normal_load();
-  return band::drain_pore_pressure(slide_.grid, setup_.model.band, flow_depth_, dt, nodes_, slide_.particles);
+  return band_stages().drain_pore_pressure(flow_depth_, dt);
 }
 
 template <int Dim>
@@ -221,7 +207,7 @@ void CpuSolver<Dim>::begin() {
   }
   mark_band();
   if (!model.contact.band_columns) {
-    band::rescale_band(slide_.grid, model.band, setup_.band_thickness(clock_.time), slide_.particles);
+    band_stages().rescale_band(setup_.band_thickness(clock_.time));
   }
   update_flow_depth();
   flow_depth_.depth_to_particles(slide_.grid, slide_.particles);
@@ -247,7 +233,7 @@ void CpuSolver<Dim>::join(std::size_t first) {
     terrain::set_contact_offset(model.motion.sizes, slide_.grid.cell(), slide_.particles, first);
   }
   if (!model.contact.band_columns) {
-    band::rescale_band(slide_.grid, model.band, setup_.band_thickness(clock_.time), slide_.particles, first);
+    band_stages().rescale_band(setup_.band_thickness(clock_.time), first);
   }
 }
 

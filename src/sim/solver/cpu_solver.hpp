@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "band/flow_depth.hpp"
-#include "band/pore_pressure.hpp"
+#include "band/stages_on_cpu.hpp"
 #include "base/stopwatch.hpp"
 #include "mpm/body_contact.hpp"
 #include "sim/solver/base.hpp"
@@ -55,12 +55,14 @@ class CpuSolver final : public Solver<Dim> {
   void press_on_ground(double dt, bool reads_mass);
   [[nodiscard]] terrain::ContactWork<Dim> resolve_contact(double dt, const terrain::StrengthLaw* strength);
   void move_particles(double dt, StepSums<Dim>& sums);
-  [[nodiscard]] band::HeatGain conduct_heat(double dt);
   [[nodiscard]] band::WaterLoss drain_pore_pressure(double dt);
   [[nodiscard]] mpm::InvalidParticle update_positions();
 
   void mark_band();
   void rescale_band();
+  [[nodiscard]] band::StagesOnCpu<Dim> band_stages() {
+    return {slide_.grid, setup_.model.band, slide_.particles, nodes_};
+  }
   [[nodiscard]] bool needs_normal_load() const {
     return setup_.model.band.pressure && setup_.model.band.needs_normal_load();
   }

@@ -55,16 +55,12 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.base = model.contact.law;
   device.contact = model.contact;
   const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
-  device.pressure_changes = model.band.pressure && !has_columns;
-  device.heat = model.band.heat && !has_columns;
+  device.band = model.band;
+  device.band.pressure = model.band.pressure && !has_columns;
+  device.band.heat = model.band.heat && !has_columns;
   device.starts = starts;
-  device.heat_content = model.band.heat_content;
-  device.heat_faces = model.band.at_faces;
-  device.band = static_cast<const band::BandPhysics&>(model.band);
   device.rescales_band = !has_columns;
-  device.hydraulic_conductivity = model.band.hydraulic_conductivity;
   device.band_thickness = [thickness = parameters.band.thickness](double time) { return thickness.at(time); };
-  device.scales_all = model.band.region == band::BandRegion::all;
   return device;
 }
 

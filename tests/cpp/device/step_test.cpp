@@ -80,22 +80,24 @@ std::vector<double> numbers_of(const terrain::ContactWork<Dim>& contact) {
   return numbers;
 }
 
-// Sums over steps, as in the budgets: of friction heat, advection, band rescaling, drained water and heat, vented
-// water.
-using StepTotals = std::array<double, 6>;
+// Sums over steps, as in the budgets: heat by friction, through faces, by advection, by the old apparent capacity, by
+// current masses and by rescaling of the band; drained water and heat, vented water.
+using StepTotals = std::array<double, 9>;
 
 template <int Dim>
-void add(const device::StepSums<Dim>& sums, StepTotals& totals) {
-  const StepTotals added{sums.heat.friction, sums.heat.advection, sums.band_rescale,
-                         sums.drained.mass,  sums.drained.heat,   sums.vented};
+void add(const device::StepSums<Dim>& sums, const physics::Phases& phases, StepTotals& totals) {
+  const StepTotals added{sums.heat.friction,      sums.heat.boundary,      sums.heat.advection,
+                         sums.heat.capacity,      sums.heat.porosity,      sums.band_rescale,
+                         sums.water.drained.mass, sums.water.drained.heat, sums.water.vented(phases)};
   std::transform(totals.begin(), totals.end(), added.begin(), totals.begin(), std::plus<>());
 }
 template <int Dim>
 void expect_the_same_budgets(const Simulation<Dim>& simulation, const StepTotals& found, const std::string& when) {
   const Budget<Dim>& budget = simulation.budget();
-  const StepTotals expected{budget.friction_heat, budget.advection,    budget.band_rescale,
-                            budget.drained_water, budget.drained_heat, budget.vented_water};
-  const std::size_t first = simulation.model().band.heat ? 0 : 3;
+  const StepTotals expected{budget.friction_heat, budget.boundary_heat, budget.advection,
+                            budget.capacity_heat, budget.porosity_heat, budget.band_rescale,
+                            budget.drained_water, budget.drained_heat,  budget.vented_water};
+  const std::size_t first = simulation.model().band.heat ? 0 : 6;
   for (std::size_t k = first; k < expected.size(); ++k) {
     EXPECT_EQ(found[k], expected[k]) << "sum " << k << ", " << when;
   }
@@ -165,7 +167,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
     const std::string when = fmt::format("step {}", k);
     EXPECT_EQ(numbers_of(sums.contact), numbers_of(simulation.contact())) << when;
     EXPECT_EQ(sums.invalid.id, -1) << when;
-    add(sums, totals);
+    add(sums, simulation.model().band.phases, totals);
     expect_the_same_budgets(simulation, totals, when);
     if (::testing::Test::HasFailure()) {
       return;
@@ -180,7 +182,9 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   mechanics->copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
   EXPECT_EQ(heat, totals[0] > 0.0);
-  EXPECT_EQ(totals[2] != 0.0, parameters.band.thickness.table.value.size() > 1);
+  EXPECT_EQ(totals[3] != 0.0, heat && !simulation.model().band.secant_capacity);
+  EXPECT_EQ(totals[4] != 0.0, heat && simulation.model().band.current_masses);
+  EXPECT_EQ(totals[5] != 0.0, parameters.band.thickness.table.value.size() > 1);
   if (pressure) {
     expect_water_to_work(simulation, first);
   }

@@ -89,12 +89,12 @@ bool report_line(const char* what, const Comparison& found, bool bits_are_asked_
 template <int Dim>
 bool print_work(const device::StepSums<Dim>& sums) {
   const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0 &&
-                     sums.drained.mass > 0 && sums.drained.heat > 0 && sums.vented != 0;
+                     sums.water.drained.mass > 0 && sums.water.drained.heat > 0 && sums.water.absorbed != 0;
   std::printf(
       "%s: friction work %.4g J, plastic work %.4g J, friction heat %.4g J, water drained %.4g kg and vented %.4g kg "
       "in the last step: %s\n",
       Dim == 2 ? "2D" : "3D", sums.contact.friction_work, sums.deformed.work.plastic, sums.heat.friction,
-      sums.drained.mass, sums.vented, works ? "well" : "WRONG");
+      sums.water.drained.mass, sums.water.vented(phases()), works ? "well" : "WRONG");
   return works;
 }
 

@@ -147,9 +147,7 @@ device::StepModel<Dim> model_of_slide() {
   model.motion.materials = {material};
   model.free_gaps = {1.0};
   model.motion.phases = phases();
-  model.heat = true;
-  model.heat_content = heat_content();
-  model.pressure_changes = true;
+  model.band.heat_content = heat_content();
   model.band.phases = model.motion.phases;
   model.band.gravity = 9.81;
   model.band.frozen_rows = band::FrozenRows::vented;
@@ -158,9 +156,9 @@ device::StepModel<Dim> model_of_slide() {
   model.band.skeleton_compressibility = 2e-9;
   model.band.water.law = physics::WaterExpansionLaw::by_temperature;
   model.band.conservative_advection = true;
-  model.hydraulic_conductivity = {1e-9};
+  model.band.hydraulic_conductivity = {1e-9};
   model.band_thickness = [cell = model.cell](double /*time*/) { return cell / 10.0; };
-  model.scales_all = false;
+  model.band.region = band::BandRegion::first_layer;
   model.faces.extent.setConstant(1e5);
   model.lower.setZero();
   model.upper = model.faces.extent;

@@ -49,15 +49,15 @@ device::StepModel<Dim> model_of(Variant variant) {
       model.filters_in_step = [](double /*time*/, double /*dt*/) { return true; };
       break;
     case Variant::heated_face:
-      model.heat_faces.extent.setConstant(1e5);
-      model.heat_faces.extent[0] = 20.0;  // within the slide: all nodes beyond it count
-      model.heat_faces.faces[1] = {band::HeatBoundaryKind::flux, 500.0};
+      model.band.at_faces.extent.setConstant(1e5);
+      model.band.at_faces.extent[0] = 20.0;  // within the slide: all nodes beyond it count
+      model.band.at_faces.faces[1] = {band::HeatBoundaryKind::flux, 500.0};
       break;
     case Variant::at_rest:
       model.moves = false;
       break;
     case Variant::columns:  // as in sim::device_model_of
-      model.heat = model.pressure_changes = model.rescales_band = false;
+      model.band.heat = model.band.pressure = model.rescales_band = false;
       break;
     case Variant::plain:
     case Variant::unknown_ground:

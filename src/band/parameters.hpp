@@ -1,0 +1,49 @@
+// Parameters of heat and pore pressure for the stages of a step, on CPU and devices.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "band/heat_face.hpp"
+#include "band/particle_heat.hpp"
+#include "band/physics.hpp"
+#include "physics/options.hpp"
+
+namespace thawslide::band {
+
+using physics::BandRegion;
+
+template <int Dim>
+struct BandParameters : BandPhysics {
+  AnyHeatContent heat_content;
+  bool heat = true;      // off: temperatures are constant
+  bool pressure = true;  // off: pore pressures are constant
+  HeatFaces<Dim> at_faces;
+  BandRegion region = BandRegion::all;
+  bool secant_capacity = true;  // off: the old apparent capacity, Eq. 19 as published
+  bool current_masses = false;  // heat content uses masses from the current porosity and volume, as published
+  std::vector<double> hydraulic_conductivity;  // by material [m/s]
+
+  [[nodiscard]] bool has_seepage() const { return pressure && water_may_seep(*this, hydraulic_conductivity); }
+
+  // Calls work(content) with the heat content law of the run.
+  template <class Work>
+  decltype(auto) with_heat_content(const Work& work) const {
+    return std::visit(work, heat_content);
+  }
+};
+
+// Calls work(law) with the ParticleHeat of the run.
+template <int Dim, class Work>
+decltype(auto) with_particle_heat(const BandParameters<Dim>& model, const Work& work) {
+  return model.with_heat_content([&](const auto& content) {
+    using Content = std::decay_t<decltype(content)>;
+    if (model.current_masses) {
+      return work(ParticleHeat<Content, CurrentMasses>{content});
+    }
+    return work(ParticleHeat<Content, InitialMasses>{content});
+  });
+}
+
+}  // namespace thawslide::band
