@@ -16,8 +16,6 @@ std::string not_on_devices(const Model<Dim>& model) {
       {model.motion.width.varies(), "a case.width that varies along x"},
       {model.between_bodies.has_held, "a body.NAME.release_time above 0"},
       {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
-      {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
-      {model.band.current_masses, "heat.masses = \"current\""},
   };
   for (const auto& option : options) {
     if (option.is_requested) {

@@ -261,6 +261,13 @@ TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithAThickeningBand) {
                                  Host(ThreadOrder::backward, 32));
 }
 
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithPublishedFormsOfHeat) {
+  const std::string capacity = "heat.update=\"apparent_capacity\"", masses = "heat.masses=\"current\"";
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>({capacity}), 150, 60, Host(ThreadOrder::shuffled, 7));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>({masses}), 150, 60, Host(ThreadOrder::backward, 32));
+  expect_the_steps_of_the_cpu<3>(with_pressure<3>({capacity, masses}), 60, 30, Host(ThreadOrder::shuffled, 96));
+}
+
 TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithPorePressureInSpace) {
   expect_the_steps_of_the_cpu<3>(with_pressure<3>(), 100, 50, Host(ThreadOrder::shuffled, 96));
   expect_the_steps_of_the_cpu<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));

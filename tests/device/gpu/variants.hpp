@@ -13,18 +13,31 @@
 
 namespace thawslide::gpu_test {
 
-enum class Variant { plain, elastic, quadratic, apic, filtered, heated_face, at_rest, unknown_ground, columns, bed };
+enum class Variant {
+  plain,
+  elastic,
+  quadratic,
+  apic,
+  filtered,
+  heated_face,
+  published_heat,
+  at_rest,
+  unknown_ground,
+  columns,
+  bed
+};
 
 struct NamedVariant {
   Variant variant;
   const char* name;
 };
-inline constexpr std::array<NamedVariant, 10> variants{{{Variant::plain, "as it is"},
+inline constexpr std::array<NamedVariant, 11> variants{{{Variant::plain, "as it is"},
                                                         {Variant::elastic, "without yielding"},
                                                         {Variant::quadratic, "quadratic shape functions"},
                                                         {Variant::apic, "APIC"},
                                                         {Variant::filtered, "velocity filter"},
                                                         {Variant::heated_face, "heat through a face"},
+                                                        {Variant::published_heat, "published forms of heat"},
                                                         {Variant::at_rest, "heat and pressure alone"},
                                                         {Variant::unknown_ground, "ground not known everywhere"},
                                                         {Variant::columns, "band columns"},
@@ -52,6 +65,10 @@ device::StepModel<Dim> model_of(Variant variant) {
       model.band.at_faces.extent.setConstant(1e5);
       model.band.at_faces.extent[0] = 20.0;  // within the slide: all nodes beyond it count
       model.band.at_faces.faces[1] = {band::HeatBoundaryKind::flux, 500.0};
+      break;
+    case Variant::published_heat:
+      model.band.secant_capacity = false;
+      model.band.current_masses = true;
       break;
     case Variant::at_rest:
       model.moves = false;
