@@ -45,7 +45,6 @@ struct StepModel {
   bool rescales_band = true;                          // off: scaling is constant
 
   [[nodiscard]] bool has_band() const { return band.heat || band.pressure; }
-  }
 };
 
 // Returns the ground data of all nodes of a block, x fastest. The result is true if the ground is known everywhere
