@@ -1,4 +1,5 @@
 // thawslide check: resources and warnings of a case, and a figure of its setup, before a run.
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -82,6 +83,11 @@ SetupFacts facts_of(sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>
   for (std::size_t a = 0; a < Dim; ++a) {
     facts.cells *= (parameters.grid.max[a] - parameters.grid.min[a]) / parameters.grid.cell;
   }
+  for (const sim::BodyFigures& body : facts.bodies) {
+    const double across = Dim == 3 && simulation.model().ground ? body.median_thickness / parameters.grid.cell : 0.0;
+    facts.cells_across = facts.cells_across > 0.0 ? std::min(facts.cells_across, across) : across;
+  }
+  facts.resolution = config::resolution_with(facts.cells_across);
   facts.blocks = simulation.grid().blocks().size();
   facts.nodes_of_block = mpm::Tile<Dim>::nodes;
   facts.step = simulation.next_step(parameters.time.end);

@@ -216,6 +216,10 @@ std::string text_of(const SetupFacts& facts) {
   text += fmt::format("  particles   {}\n", count_text(static_cast<double>(facts.particles)));
   text += fmt::format("  cells       {} in the domain; allocated blocks of {} nodes: {}\n", count_text(facts.cells),
                       facts.nodes_of_block, count_text(static_cast<double>(facts.blocks)));
+  if (facts.resolution != nullptr) {
+    text += fmt::format("              {:.2g} across the thinnest body; {}\n", facts.cells_across,
+                        facts.resolution->errors);
+  }
   text += fmt::format("  step        {:.3g} s{}; {}\n", facts.step, facts.is_adaptive ? " at the start (adaptive)" : "",
                       std::isfinite(facts.limit.step) ? fmt::format("the limit is {:.3g} s, set by {}",
                                                                     rounded_down(facts.limit.step, 3), facts.limit.what)
@@ -254,6 +258,7 @@ std::string json_of(const SetupFacts& facts) {
   }
   json["particles"] = facts.particles;
   json["cells"] = facts.cells;
+  json["cells_across"] = facts.cells_across > 0.0 ? Json(facts.cells_across) : Json();
   json["blocks"] = facts.blocks;
   json["nodes_of_block"] = facts.nodes_of_block;
   json["step_s"] = facts.step;

@@ -7,6 +7,7 @@
 
 #include "app/substrate_list.hpp"
 #include "base/available_memory.hpp"
+#include "config/resolution.hpp"
 #include "config/site.hpp"
 #include "run/device_choice.hpp"
 #include "run/disk_need.hpp"
@@ -35,9 +36,11 @@ struct SetupFacts {
   std::optional<double> bed_volume;            // of the erodible bed [m3], per metre of width in 2D
   std::optional<config::Roughness> roughness;  // of a DEM
   std::size_t particles = 0;
-  double cells = 0.0;                          // in the domain
-  std::size_t blocks = 0, nodes_of_block = 0;  // allocated at the start
-  double step = 0.0;                           // [s]
+  double cells = 0.0;                                   // in the domain
+  double cells_across = 0.0;                            // across the thinnest body on terrain in 3D; 0: none
+  const config::ResolutionFacts* resolution = nullptr;  // with that number; null: errors are unknown
+  std::size_t blocks = 0, nodes_of_block = 0;           // allocated at the start
+  double step = 0.0;                                    // [s]
   bool is_adaptive = false;
   sim::StepLimit limit;
   double steps = 0.0;

@@ -74,6 +74,14 @@ Resolution resolution_named(const std::string& name) {
   return found->resolution;
 }
 
+const ResolutionFacts* resolution_with(double cells_across) {
+  const ResolutionFacts* found = nullptr;
+  for (const ResolutionFacts& each : resolutions) {
+    found = are_enough(cells_across, each.cells_across) ? &each : found;
+  }
+  return found;
+}
+
 double cell_of(Resolution resolution, double thickness, double median_thickness, int particles_per_axis) {
   if (resolution == Resolution::quick) {
     return round_down(thickness * particles_per_axis / fewest_particles);

@@ -45,18 +45,22 @@ struct BodyOnCells {
 
 enum class Resolution { quick, standard, fine };
 
-// A named resolution and its errors on a plane that runs out, with APIC, against the limit for small
-// cells (docs/refinement.md).
+// A named resolution, its cells across the thickness of the release, and what cells half as large change: on a plane
+// that runs out, with the material and the transfer of `thawslide new` (benchmarks/decisions/viscosity.md).
 struct ResolutionFacts {
   Resolution resolution;
   const char* name;
+  double cells_across;
   const char* errors;
 };
 
 inline constexpr std::array<ResolutionFacts, 3> resolutions{
-    {{Resolution::quick, "quick", "errors of 1 % (travel) and 7 % (areas) on a plane"},
-     {Resolution::standard, "standard", "errors of 0.4 % (travel) and 2 % (areas) on a plane"},
-     {Resolution::fine, "fine", "errors of 0.2 % (travel) and 1 % (areas) on a plane"}}};
+    {{Resolution::quick, "quick", 2.0, "half the cell changes travel by 0.6 % and areas by 10 % on a plane"},
+     {Resolution::standard, "standard", 4.0, "half the cell changes travel by 0.4 % and areas by 5 % on a plane"},
+     {Resolution::fine, "fine", 8.0, "errors not measured"}}};
+
+// The finest named resolution with at most this number of cells across a body; null below `quick`.
+[[nodiscard]] const ResolutionFacts* resolution_with(double cells_across);
 
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);

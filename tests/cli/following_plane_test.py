@@ -1,7 +1,7 @@
 """A slide on a plane that runs out, on cells that follow the terrain: areas and travel against their limits.
 
-The limits are those of fine level cells (docs/refinement.md): 240,000 m2, 600,000 m2 and 1,335 m. Areas are thicker
-than 0.1 m on map cells of 20 m.
+The limits are those for small cells (docs/refinement.md): 234,800 m2, 597,200 m2 and 1,336 m. Areas are thicker than
+0.5 m on map cells of 20 m.
 """
 
 import sys
@@ -16,7 +16,7 @@ from reproduction.studies import refinement
 from reproduction.study import Job, Place
 
 FOLLOWING = ('time.stepping="adaptive"', "maps.cell=20")
-# Transfer, cell [m], and the largest deviations of deposit area, affected area and travel, and of the growth of the
+# Transfer, cell [m], and the largest deviations of deposit area, inundated area and travel, and of the growth of the
 # volume.
 BOUNDS = [
     pytest.param("flip", 20.0, 0.12, 0.11, 0.02, 0.07),
@@ -27,9 +27,9 @@ BOUNDS = [
 ]
 
 
-@pytest.mark.parametrize(("transfer", "cell", "deposit", "affected", "travel", "growth"), BOUNDS)
+@pytest.mark.parametrize(("transfer", "cell", "deposit", "inundated", "travel", "growth"), BOUNDS)
 def test_areas_on_coarse_cells_are_those_of_fine_ones(
-    binary: Path, tmp_path: Path, transfer: str, cell: float, deposit: float, affected: float, travel: float,
+    binary: Path, tmp_path: Path, transfer: str, cell: float, deposit: float, inundated: float, travel: float,
     growth: float,
 ) -> None:  # fmt: skip
     refinement.write_case(refinement.PLANE, "refined-plane", tmp_path, tmp_path)
@@ -37,9 +37,9 @@ def test_areas_on_coarse_cells_are_those_of_fine_ones(
     sets = (*level.sets, *FOLLOWING, f'mechanics.transfer="{transfer}"')
     Place(binary, tmp_path, tmp_path).perform([Job(level.key, "", sets, level.case)])
     facts = run_facts(tmp_path / level.key)
-    assert facts["covered_area_m2"] == pytest.approx(240_000.0, rel=deposit)
-    assert facts["affected_area_m2"] == pytest.approx(600_000.0, rel=affected)
-    assert facts["travel_distance_m"] == pytest.approx(1_335.0, rel=travel)
+    assert facts["deposit_area_m2"] == pytest.approx(234_800.0, rel=deposit)
+    assert facts["inundated_area_m2"] == pytest.approx(597_200.0, rel=inundated)
+    assert facts["travel_distance_m"] == pytest.approx(1_336.0, rel=travel)
     assert 0.0 < facts["dilation_fraction"] < growth
     numerical = columns_of(tmp_path / level.key / "history.csv")["numerical_J"][-1]
     assert abs(numerical) < 1.2e10  # of 1.6e13 J of potential energy

@@ -175,6 +175,17 @@ TEST(Resolution, IsFoundByItsName) {
   EXPECT_THROW((void)resolution_named("coarse"), std::out_of_range);
 }
 
+TEST(Resolution, IsFoundByTheCellsAcrossABody) {
+  EXPECT_EQ(resolution_with(1.9), nullptr);
+  EXPECT_EQ(resolution_with(2.0)->resolution, Resolution::quick);
+  EXPECT_EQ(resolution_with(3.9)->resolution, Resolution::quick);
+  EXPECT_EQ(resolution_with(4.0)->resolution, Resolution::standard);
+  EXPECT_EQ(resolution_with(20.0)->resolution, Resolution::fine);
+  for (const ResolutionFacts& each : resolutions) {
+    EXPECT_EQ(resolution_with(40.0 / cell_of(each.resolution, 40.0, 40.0, 2)), &each) << each.name;
+  }
+}
+
 using Lengths = std::vector<double>;
 
 bool fits(double cell, const Lengths& lengths) {
