@@ -55,8 +55,8 @@ struct ResolutionFacts {
 };
 
 inline constexpr std::array<ResolutionFacts, 3> resolutions{
-    {{Resolution::quick, "quick", 2.0, "half the cell changes travel by 0.6 % and areas by 10 % on a plane"},
-     {Resolution::standard, "standard", 4.0, "half the cell changes travel by 0.4 % and areas by 5 % on a plane"},
+    {{Resolution::quick, "quick", 2.0, "half the cell: 0.6 % (travel), 10 % (areas) on a plane"},
+     {Resolution::standard, "standard", 4.0, "half the cell: 0.4 % (travel), 5 % (areas) on a plane"},
      {Resolution::fine, "fine", 8.0, "errors not measured"}}};
 
 // The finest named resolution with at most this number of cells across a body; null below `quick`.
