@@ -12,9 +12,11 @@ from thawslide import NotInRunError, Run
 from thawslide.boiling import boiling_temperature, saturation_pressure
 from thawslide.figures import FIGURES
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.water import relative_water_residual
+from thawslide.figures.water import LOSSES, relative_water_residual
 from thawslide.key_numbers import key_numbers, stop_time
 from thawslide.report_page import figures_of
+
+BOILING = "boiling temperature at mean N"
 
 
 def column_history(rows: int = 101) -> dict[str, np.ndarray]:
@@ -131,7 +133,7 @@ def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
     heat = titled(figure, "(b)")
     np.testing.assert_allclose(line(heat, "mean")[1], run.series["band_temperature_C"])
     np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.series["band_max_temperature_C"])
-    np.testing.assert_allclose(line(heat, "boiling temperature at mean N")[1], 187.243587897609)
+    np.testing.assert_allclose(line(heat, f"{BOILING} (above the panel)")[1], 187.243587897609)
     assert not any("boiling point" in text for axes in figure.axes for text in texts(axes))
     np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.series["band_saturation"])
     np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
@@ -221,3 +223,28 @@ def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_p
         FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
     assert texts(titled(FIGURES["band"].plot(run), "(d)")) == ["no contact"]
     assert texts(titled(FIGURES["water"].plot(run), "(d)")) == ["residual is zero"]
+
+
+def test_terms_of_the_water_budget_that_are_zero_are_stated(make_run: MakeRun) -> None:
+    history = column_history()
+    history |= {name: np.zeros(len(history["time_s"])) for name in LOSSES}
+    figure = FIGURES["water"].plot(Run(make_run(history=history)))
+    losses = titled(figure, "(b)")
+    assert "all terms are zero" in texts(losses) and not losses.lines
+    assert "all terms are zero" not in texts(titled(figure, "(a)"))
+
+
+def test_reference_lines_do_not_widen_the_panels(make_run: MakeRun) -> None:
+    history = column_history()
+    rows = len(history["time_s"])
+    history |= {"band_temperature_C": np.linspace(-8.0, -6.0, rows), "band_max_temperature_C": np.full(rows, -5.0)}
+    history["band_max_pressure_ratio"] = np.full(rows, 0.01)
+    folder = make_run(history=history)
+    add_base(folder)
+    figure = FIGURES["band"].plot(Run(folder))
+    heat, ratio = titled(figure, "(b)"), titled(figure, "(e)")
+    assert -8.2 < heat.get_ylim()[0] <= -8.0 and heat.get_ylim()[1] < 0.0
+    line(heat, f"{BOILING} (above the panel)")
+    assert ratio.get_ylim()[1] == pytest.approx(0.0108)
+    along = FIGURES["base_along"].plot(Run(folder)).axes[-1]
+    assert along.get_ylim()[1] < 150.0 < line(along, "boiling T at N")[1].min()

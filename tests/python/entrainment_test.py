@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 from conftest import MakeRun
-from figures_test import line, titled
+from figures_test import line, texts, titled
 
 from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
@@ -62,6 +62,15 @@ def test_entrainment_has_a_figure_and_a_key_number(bed_run: Path) -> None:
     figure = FIGURES["entrainment"].plot(run)
     np.testing.assert_allclose(line(titled(figure, "(b)"), "work of entrainment")[1][-1], 10.0)  # MJ
     assert {row.words: row.value for row in key_numbers(run)}["Entrained bed volume"] == "222 m³"
+
+
+def test_panels_without_entrainment_say_so(bed_run: Path) -> None:
+    run = Run(bed_run)
+    for name in ("entrained_mass_kg", "entrained_volume_m3", "entrained_work_J", "entrained_heat_J"):
+        run.series[name][:] = 0.0
+    figure = FIGURES["entrainment"].plot(run)
+    for panel in ("(b)", "(c)"):
+        assert "no entrainment" in texts(titled(figure, panel)) and not titled(figure, panel).lines
 
 
 def test_report_accepts_more_particles_at_the_end(bed_run: Path) -> None:

@@ -17,12 +17,12 @@ from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
     GREEN,
-    NOTE,
     ORANGE,
     PURPLE,
     RED,
     SKY,
     TIME_LABEL,
+    draw_reference,
     explain_empty,
     mark_level,
     note_below,
@@ -115,10 +115,11 @@ def _plot_columns(run: Run) -> Figure:
     saturation.set_ylim(0.0, 1.02)
     _plot_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
     _plot_mean(ratio, run, "band_max_pressure_ratio", "maximum P/N (–)", BLUE)
-    ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
     _plot_mean(friction, run, "band_friction_coefficient", "friction coefficient (–)", PURPLE)
     for axes in (thickness, ratio, friction):
-        axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
+        highest = axes.dataLim.y1  # -inf without values
+        axes.set_ylim(0.0, max(1.08 * highest, 1e-3) if highest > 0.0 else 1.0)
+    draw_reference(ratio, 1.0)
     warn(ratio, too_much_pressure(run.series["band_max_pressure_ratio"]))
     for axes in panels:
         time_axis(axes, run.series["time_s"], TIME_LABEL if axes in panels[4:] else "")
@@ -188,9 +189,12 @@ def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
     axes.set_ylabel("temperature (°C)")
     time_line(axes, time, run.series["band_max_temperature_C"], color=PURPLE, label="maximum of all columns")
     time_line(axes, time, run.series["band_temperature_C"], color=RED, label="mean")
-    time_line(axes, time, boiling, color=SKY, linestyle="--", label="boiling temperature at mean N")
-    axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     notes = plot_targets(axes, run, ("band_temperature",), 1.0, RED)
+    words = "boiling temperature at mean N"
+    if float(np.min(boiling, where=np.isfinite(boiling), initial=np.inf)) > axes.get_ylim()[1]:
+        words += " (above the panel)"
+    draw_reference(axes, boiling, time, color=SKY, linestyle="--", label=words)
+    draw_reference(axes, 0.0)
     legend = axes.legend(loc="upper right")
     space = _LEGEND_EDGE + _LEGEND_ROW * len(legend.get_texts())
     words = too_hot(run, run.series["band_max_temperature_C"], run.series["band_pore_pressure_Pa"])

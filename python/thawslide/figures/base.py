@@ -18,10 +18,10 @@ from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
     GREEN,
-    NOTE,
     PURPLE,
     RED,
     SKY,
+    draw_reference,
     styled,
     title_figure,
     warn,
@@ -77,8 +77,9 @@ def _draw_row(stress: Axes, heat: Axes, shot: Snapshot, divisor: float) -> None:
     stress.set_ylim(bottom=0.0)
     heat.plot(x, value["max_temperature_C"], color=PURPLE, label="maximum T")
     heat.plot(x, value["temperature_C"], color=RED, label="mean T")
-    heat.plot(x, boiling_temperature(value["normal_pressure_Pa"]), color=SKY, linestyle="--", label="boiling T at N")
-    heat.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
+    boiling = boiling_temperature(value["normal_pressure_Pa"])
+    draw_reference(heat, boiling, x, color=SKY, linestyle="--", label="boiling T at N")
+    draw_reference(heat, 0.0)
 
 
 @styled

@@ -64,12 +64,16 @@ def entrainment(run: Run) -> Figure:
         time_line(mass, time, run.series[name] / divisor, color=colour, label=words)
     mass.set_ylabel(f"mass ({unit}{per})")
     divisor, unit = prefixed([float(np.nanmax(run.series["entrained_work_J"]))], "J")
-    time_line(work, time, run.series["entrained_work_J"] / divisor, color=RED, label="work of entrainment")
-    time_line(work, time, run.series["entrained_heat_J"] / divisor, color=GREEN, label="heat in joined particles")
     work.set_ylabel(f"energy ({unit}{per})")
+    if np.any(run.series["entrained_mass_kg"] > 0.0):
+        time_line(work, time, run.series["entrained_work_J"] / divisor, color=RED, label="work of entrainment")
+        time_line(work, time, run.series["entrained_heat_J"] / divisor, color=GREEN, label="heat in joined particles")
+        work.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    else:
+        explain_empty(work, "no entrainment")
+    mass.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     for axes in (mass, work):
         time_axis(axes, time, TIME_LABEL if axes is work else "")
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     _plot_depth(depth, run)
     title_panels(
         (mass, work, depth),

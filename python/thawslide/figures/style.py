@@ -178,6 +178,16 @@ def mark_level(axes: Axes, values: Numbers, level: float, words: str) -> None:
     )  # fmt: skip
 
 
+def draw_reference(axes: Axes, values: ArrayLike, x: Numbers | None = None, **style: Any) -> None:
+    """Draw a level, or values at `x`, as a reference line; the limits of the panel remain those of its data."""
+    limits = axes.get_ylim()
+    if x is None:
+        axes.axhline(float(np.asarray(values)), color=NOTE, linewidth=0.8, linestyle=":")
+    else:
+        axes.plot(x, values, **style)
+    axes.set_ylim(limits)
+
+
 def note_below(figure: Figure, words: str) -> None:
     """Write a note below the panels of a figure with constrained layout, wrapped to its width."""
     lines = wrapped(words, figure.get_figwidth() / _NOTE_CHARACTER)

@@ -57,11 +57,14 @@ def _plot_terms(
     """Plot terms over time in a unit that suits the largest of them."""
     largest = max(float(np.nanmax(np.abs(run.series[name]))) for name in terms)
     divisor, unit = scaled(largest, steps)
+    axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
+    if not largest > 0.0:
+        explain_empty(axes, "all terms are zero")
+        return
     for number, (name, (words, colour)) in enumerate(terms.items()):
         # Later lines are dashed, because they can coincide with earlier ones.
         style = {"color": colour, "linestyle": (0, (4, 2)) if number and terms is CONTENT else "-", "label": words}
         time_line(axes, run.series["time_s"], run.series[name] / divisor, **style)
-    axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
     axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
