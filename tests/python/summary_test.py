@@ -4,8 +4,9 @@ import html
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
-from conftest import Fails, MakeRun, update_facts
+from conftest import Fails, MakeRun, page_of, update_facts
 
 import thawslide
 from thawslide import Run
@@ -15,6 +16,7 @@ from thawslide.figures.class_maps import arrival_classes, thickness_classes
 from thawslide.figures.site import make_site
 from thawslide.messages import LANGUAGES, Messages
 from thawslide.pages.client_text import arrival_rows, limits, plain_numbers, scenario
+from thawslide.pages.results import map_note
 from thawslide.pages.summary import make_summary
 from thawslide.text_files import read_table
 
@@ -26,7 +28,20 @@ def test_scenario_states_rest_or_motion_and_limits_the_warnings(map_run: Path) -
     update_facts(map_run, at_rest=False, rest_since_s=None)
     assert "The mass was still moving at the end: the affected area can become larger." in scenario(Run(map_run), SAY)
     update_facts(map_run, warnings=["one", "two"])
-    assert limits(Run(map_run), SAY)[-1].startswith("The program reported 2 warnings on this run")
+    last = limits(Run(map_run), SAY, "warning_in_report")[-1]
+    assert last == "The program reported 2 warnings on this run. See Diagnosis in the full report."
+    assert "reported 2 warnings on this run. See Diagnosis below." in page_of(map_run)
+
+
+def test_maps_explain_coloured_cells_outside_the_outline(map_run: Path) -> None:
+    site = make_site(Run(map_run))
+    for language in LANGUAGES:
+        say = Messages(language)
+        assert say("edge_note") not in map_note(site, say)  # the outline is a contour
+    vars(site)["affected"] = [np.zeros((4, 2))]
+    for language in LANGUAGES:
+        say = Messages(language)
+        assert map_note(site, say).endswith(f" {say('edge_note')}")
 
 
 def test_many_probes_leave_space_for_the_map(map_run: Path) -> None:

@@ -1,4 +1,4 @@
-"""Texts of results and summary for non-experts: scenario, five numbers, assumptions, arrival times, limits."""
+"""Texts of results and summary for non-experts: scenario, key numbers, assumptions, arrival times, limits."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ class ClientText:
     computed: str  # author, date and program
 
 
-def client_text(run: Run, say: Messages) -> ClientText:
-    """Return the texts on a run."""
+def client_text(run: Run, say: Messages, place_of_warnings: str) -> ClientText:
+    """Return the texts on a run; `place_of_warnings` is the message that states where its warnings are listed."""
     ranges = ranges_of(run)
     return ClientText(
         alerts(run, say),
@@ -65,7 +65,7 @@ def client_text(run: Run, say: Messages) -> ClientText:
         say(ranges.message, count=ranges.count) if ranges else say("range_none"),
         assumptions(run, say),
         arrival_rows(run, say),
-        limits(run, say),
+        limits(run, say, place_of_warnings),
         origin(run, say),
         _author(run) + say("computed", date=_date(run), version=run.facts.get("version", _DASH)),
     )
@@ -188,14 +188,14 @@ def arrival_rows(run: Run, say: Messages) -> list[tuple[str, str, str]]:
     ]
 
 
-def limits(run: Run, say: Messages) -> list[str]:
+def limits(run: Run, say: Messages, place_of_warnings: str) -> list[str]:
     """Return sentences on questions that the numbers do not answer."""
     kind = "outline" if on_map(run) else "section"
     names = ("scenario", "release", "friction", kind, "hazards", "objects", "map")
     sentences = [say(f"limit_{name}") for name in names]
     if warnings := run.facts.get("warnings"):
-        many = len(warnings) > 1
-        sentences.append(say("limit_warnings", count=len(warnings)) if many else say("limit_warning"))
+        sentence = say("limit_warnings", count=len(warnings)) if len(warnings) > 1 else say("limit_warning")
+        sentences.append(f"{sentence} {say(place_of_warnings)}")
     return sentences
 
 

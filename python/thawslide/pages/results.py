@@ -19,7 +19,7 @@ _WIDTH, _HEIGHT = 5.6, 4.3  # inches, of the map or section
 
 def results(run: Run, say: Messages, extent: str) -> str:
     """Return the results of a run as HTML: extent (HTML, "" if missing), numbers, scenario, assumptions and limits."""
-    text = client_text(run, say)
+    text = client_text(run, say, "warning_below")
     heading = say("head_area" if on_map(run) else "head_section")
     shown = extent or f"<p>{html.escape(say('not_drawn'))}</p>"
     return "\n".join(
@@ -49,8 +49,9 @@ def extent(run: Run, say: Messages, dpi: int) -> str:
 
 
 def map_note(site: Site, say: Messages) -> str:
-    """Return a sentence on the coordinates of a map."""
-    return say("map_note", crs=site.scene.terrain.crs or say("unknown_crs"))
+    """Return sentences on the coordinates of a map and on its outline."""
+    note = say("map_note", crs=site.scene.terrain.crs or say("unknown_crs"))
+    return note if site.affected is None else f"{note} {say('edge_note')}"
 
 
 def _heading(words: str) -> str:

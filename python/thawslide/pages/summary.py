@@ -111,7 +111,9 @@ def make_summary(
     page, document = ((output or run.folder) / name for name in NAMES)
     try:
         first, *second = _map_panels(run, say, probability) if on_map(run) else _section_panels(run, say)
-        summary = Summary(run.title, say, context, members, client_text(run, say), first, second, run)
+        summary = Summary(
+            run.title, say, context, members, client_text(run, say, "warning_in_report"), first, second, run
+        )
         page.parent.mkdir(parents=True, exist_ok=True)
         with atomic_file(page) as temporary:
             temporary.write_text(_page(summary, dpi), encoding="utf-8")
