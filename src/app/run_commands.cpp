@@ -1,5 +1,8 @@
 // thawslide run and resume.
+#include <algorithm>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/process.hpp"
@@ -66,16 +69,24 @@ config::Case case_of(const CaseOptions& options) {
   if (given.count("grid.cell") > 0) {
     throw UserError("--coarse sets grid.cell: omit --coarse, or --set grid.cell.");
   }
-  for (const std::string& change : config::coarse_changes(parameters)) {
-    if (given.count(change.substr(0, change.find('='))) == 0) {
-      sets.push_back(change);
-    }
-  }
+  std::vector<std::string> added = config::coarse_changes(parameters);
+  std::erase_if(added, [&](const std::string& change) { return given.count(*config::keys_of({change}).begin()) > 0; });
+  sets.insert(sets.end(), added.begin(), added.end());
   try {
-    return config::read_case(options.file, sets);
+    config::Case trial = config::read_case(options.file, sets);
+    for (const std::string& key : config::keys_of(added)) {
+      trial.locations[key] = "--coarse";
+    }
+    return trial;
   } catch (const UserError& error) {
-    throw UserError(fmt::format("--coarse, which sets cells of {:g} m: {}", config::trial_factor * parameters.grid.cell,
-                                error.what()));
+    std::string text = error.what();
+    for (const std::string& change : added) {
+      if (const std::size_t found = text.find("--set " + change); found != std::string::npos) {
+        text.erase(found, std::string_view("--set ").size());
+      }
+    }
+    throw UserError(
+        fmt::format("--coarse, which sets cells of {:g} m: {}", config::trial_factor * parameters.grid.cell, text));
   }
 }
 

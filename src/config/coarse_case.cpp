@@ -6,7 +6,7 @@ namespace thawslide::config {
 
 std::vector<std::string> coarse_changes(const Case& parameters) {
   std::vector<std::string> changes{fmt::format("grid.cell={}", trial_factor * parameters.grid.cell)};
-  if (parameters.time.step > 0.0) {
+  if (was_given(parameters, "time.step")) {  // otherwise adaptive steps have no upper limit
     changes.push_back(fmt::format("time.step={}", trial_factor * parameters.time.step));
   }
   if (parameters.maps.cell > 0.0) {

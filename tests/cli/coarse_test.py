@@ -3,7 +3,7 @@
 import tomllib
 from pathlib import Path
 
-from conftest import Program, run_facts
+from conftest import Program, edit, run_facts
 
 
 def test_a_trial_has_double_cells_and_steps_in_its_own_folder(thawslide: Program, small_case: Path) -> None:
@@ -34,3 +34,19 @@ def test_a_trial_of_another_cell_is_refused(thawslide: Program, small_case: Path
 def test_a_trial_keeps_a_given_step(thawslide: Program, small_case: Path) -> None:
     trial = thawslide.json("check", small_case, "--coarse", "--set", "time.step=0.001")
     assert trial["steps"] == thawslide.json("check", small_case, "--set", "time.step=0.001")["steps"]
+
+
+def test_a_trial_of_adaptive_steps_has_no_upper_limit_of_the_step(thawslide: Program, small_case: Path) -> None:
+    edit(small_case / "case.toml", "step = 0.001", 'stepping = "adaptive"')
+    words = ("check", small_case, "--set", "time.end=9")
+    assert "time.step" not in thawslide.ok(*words, "--coarse")
+    given = thawslide.ok(*words, "--coarse", "--set", "time.step=0.8")
+    assert "warning: --set time.step=0.8: time.step is 0.8 s" in given
+    edit(small_case / "case.toml", 'stepping = "adaptive"', 'stepping = "adaptive"\nstep = 0.4')
+    trial = thawslide.ok(*words, "--coarse")
+    assert "warning: --coarse: time.step is 0.8 s" in trial and "warning: --coarse: grid.cell: across" in trial
+
+
+def test_an_error_of_a_trial_names_no_option_that_was_not_given(thawslide: Program, small_case: Path) -> None:
+    message = thawslide.error("check", small_case, "--coarse", "--set", "grid.max=[21.0, 10.0]")
+    assert message.startswith("error: --coarse, which sets cells of 2 m: ") and "--set grid.cell" not in message
