@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "config/declaration.hpp"
 #include "config/overrides.hpp"
 #include "config/rule.hpp"
 #include "config/toml.hpp"
@@ -53,6 +54,29 @@ bool may_change(const std::string& given) {
   for (const std::string_view each : changeable) {
     if (each.back() == '.' ? key.rfind(each, 0) == 0 : key == each) {
       return true;
+    }
+  }
+  return false;
+}
+
+// Whether a case file may have the key or table. Others are left to the reading of the case, which suggests a name.
+bool is_known(const std::string& key) {
+  const auto is_part = [](const std::string& whole, const std::string& part) {
+    return (whole + ".").rfind(part + ".", 0) == 0;
+  };
+  for (const auto& table : tables()) {
+    std::string name = table->name;
+    if (table->is_named() && is_part(key, name)) {
+      name = key.substr(0, key.find('.', name.size() + 1));  // with the name of the user
+    }
+    if (is_part(name, key)) {
+      return true;
+    }
+    for (const Entry& entry : table->entries()) {
+      const std::string& former = entry.rule->formerly;
+      if (is_part(key, name + "." + entry.rule->key) || (!former.empty() && is_part(key, name + "." + former))) {
+        return true;
+      }
     }
   }
   return false;
@@ -143,7 +167,7 @@ void require_changeable(const std::vector<std::string>& sets) {
   std::string fixed;
   for (const std::string& set : sets) {
     const std::string key = parse_override(set).key;
-    if (!may_change(key)) {
+    if (!may_change(key) && is_known(key)) {
       fixed += (fixed.empty() ? "" : ", ") + key;
     }
   }

@@ -93,6 +93,8 @@ LOST = (
             unchanged, "--set time.ende=3",
             "--set time.ende=3: key 'time.ende' is not known in [time]; did you mean 'end'?",
         ),
+        (unchanged, "--set grid.cel=2", "key 'grid.cel' is not known in [grid]; did you mean 'cell'?"),
+        (unchanged, "--set bandd.thickness=2", "table [bandd] is not known; did you mean 'band'?"),
         (
             unchanged, "--set basal.friction_angle=5",
             "{run} has reached its end at 0.2 s: no step is left that could take basal.friction_angle=5. Give a later "

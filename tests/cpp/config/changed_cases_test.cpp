@@ -231,10 +231,18 @@ TEST(CaseChanges, AreLimitedToKeysThatEveryStepReads) {
                                       "grid.leaving=remove", "basal.friction_angle=12", "basal.turbulent_friction=400",
                                       "basal.heat_fraction=0.5", "mechanics.fmpm_interval=0.1",
                                       "mechanics.split_limit=16", "substrate.ice.friction_coefficient=0.1"}));
-  for (const char* set : {"grid.cell=3", "timeless.end=3", "time=3", "material.rock.cohesion=3", "band.thickness=0.1",
-                          "grid.leavings=stop", "substrate.ice.x_min=3", "substrate.basal.cohesion_law=bonds",
+  for (const char* set : {"grid.cell=3", "time=3", "material.rock.cohesion=3", "band.thickness=0.1", "substrate.ice={}",
+                          "substrate.ice.x_min=3", "body.slide.temperature.y=3", "substrate.basal.cohesion_law=bonds",
                           "mechanics.split_stretched=true"}) {
     EXPECT_THROW(require_changeable({"time.end=3", set}), UserError) << set;
+  }
+}
+
+TEST(CaseChanges, LeaveMisspeltKeysToTheReadingOfTheCase) {
+  for (const char* set : {"timeless.end=3", "grid.leavings=stop", "substrate.ice.x_mim=3",
+                          "heat.boundary.x_mni=insulated", "grid.cel.x=3"}) {
+    EXPECT_NO_THROW(require_changeable({set})) << set;
+    EXPECT_THROW(case_from_text(valid_case, {set}), UserError) << set;
   }
 }
 
