@@ -45,14 +45,14 @@ def read_raster(path: Path, crs: str) -> tuple[_core.Raster, list[str]]:
     return raster, _notes(warnings)
 
 
-def read_polygons(path: Path, crs: str) -> tuple[list[list[Numbers]], list[str]]:
-    """Return polygons in a coordinate system, each its outline and its holes, and notes.
+def read_polygons(path: Path, crs: str) -> tuple[list[list[Numbers]], list[str], list[str]]:
+    """Return polygons in a coordinate system, each its outline and its holes, their names, and notes.
 
-    A ring has the shape (n, 2).
+    A ring has the shape (n, 2). A polygon without the attribute `name` has an empty name.
     """
     with errors_of(path):
-        polygons, warnings = _core.read_polygons(str(path), crs)
-    return [[np.asarray(ring) for ring in rings] for rings in polygons], _notes(warnings)
+        polygons, names, warnings = _core.read_polygons(str(path), crs)
+    return [[np.asarray(ring) for ring in rings] for rings in polygons], names, _notes(warnings)
 
 
 def open_raster(path: Path, quantity: _core.Quantity) -> tuple[_core.RasterFile, list[str]]:

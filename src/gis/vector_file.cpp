@@ -203,7 +203,8 @@ class LayerReader {
 
   void add_feature(const OGRFeature& source) {
     Feature feature;
-    feature.title = title_of(source);
+    feature.name = name_of(source);
+    feature.title = title_of(feature.name);
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
       throw UserError(fmt::format("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file,
                                   feature.title, name_of_kind(kind_)));
@@ -232,14 +233,16 @@ class LayerReader {
     result_.features.push_back(std::move(feature));
   }
 
-  // Title with the feature's number and its attribute "name".
-  std::string title_of(const OGRFeature& source) const {
-    const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
+  std::string name_of(const OGRFeature& source) const {
     const auto found = std::find(result_.attributes.begin(), result_.attributes.end(), "name");
     const int index = found == result_.attributes.end() ? source.GetFieldIndex("name")
                                                         : static_cast<int>(found - result_.attributes.begin());
-    const std::string name =
-        index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? as_utf8(source.GetFieldAsString(index)) : "";
+    return index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? as_utf8(source.GetFieldAsString(index)) : "";
+  }
+
+  // Title with the feature's number and its name.
+  std::string title_of(const std::string& name) const {
+    const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
     return fmt::format("{} {}{}", kind, result_.features.size() + 1,
                        name.empty() ? "" : " (" + config::shown(name) + ")");
   }

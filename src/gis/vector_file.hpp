@@ -12,6 +12,7 @@ namespace thawslide::gis {
 
 struct Feature {
   std::string title;  // for messages: "polygon 2 (north)", from 1
+  std::string name;   // the attribute "name"; empty if there is none
   Polygons polygons;
   std::vector<Polyline2> lines;
   std::vector<std::array<double, 2>> points;

@@ -37,10 +37,11 @@ nb::object corners_of(const gis::Polyline2& ring) {
   return copied(numbers, {ring.size(), 2});
 }
 
-// Polygons of all features: lists of rings, the outline first; and warnings.
-std::pair<nb::list, std::vector<std::string>> polygons_in(const std::string& file, const std::string& crs) {
+// Polygons of all features: lists of rings, the outline first; their names, which may be empty; and warnings.
+nb::tuple polygons_in(const std::string& file, const std::string& crs) {
   const gis::VectorLayer layer = gis::read_polygons(file, crs);
   nb::list polygons;
+  std::vector<std::string> names;
   for (const gis::Feature& feature : layer.features) {
     for (const gis::Polygon& polygon : feature.polygons) {
       nb::list rings;
@@ -49,9 +50,10 @@ std::pair<nb::list, std::vector<std::string>> polygons_in(const std::string& fil
         rings.append(corners_of(hole));
       }
       polygons.append(rings);
+      names.push_back(feature.name);
     }
   }
-  return {polygons, layer.warnings};
+  return nb::make_tuple(polygons, names, layer.warnings);
 }
 
 gis::Polyline2 ring_of(const nb::handle& corners) {
@@ -110,7 +112,7 @@ void bind_map_files(nb::module_& module) {
     return std::pair(std::move(raster), warnings);
   });
   module.def("read_polygons", &polygons_in,
-             nb::sig("def read_polygons(file: str, crs: str, /) -> tuple[list[list[object]], list[str]]"));
+             nb::sig("def read_polygons(file: str, crs: str, /) -> tuple[list[list[object]], list[str], list[str]]"));
   module.def("write_raster", [](const std::string& file, const Raster& layout,
                                 const nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>& values,
                                 const std::string& unit, const std::string& description) {

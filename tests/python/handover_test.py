@@ -1,6 +1,7 @@
 """Terrain after an event, moving bottom, hydrographs and assets, on a slab whose results are known in closed form."""
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -183,17 +184,22 @@ def test_assets_have_the_values_of_the_slab(run: Run) -> None:
     assert hut.is_hit and not barn.is_hit and np.isnan(barn.arrival_time_s)
 
 
+def write_polygons(path: Path, *properties: dict[str, str]) -> None:
+    """Write a file with the same polygon, from outside the path of the slab into it, for each set of attributes."""
+    west, south = WEST + 290.0, SOUTH
+    ring = [[west, south], [west + 30.0, south], [west + 30.0, MIDDLE], [west, MIDDLE], [west, south]]
+    system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::31287"}}
+    shape = {"type": "Polygon", "coordinates": [ring]}
+    features = [{"type": "Feature", "properties": each, "geometry": shape} for each in properties]
+    path.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": features}))
+
+
 def test_polygon_has_the_largest_values_of_its_cells(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "assets.geojson"
-    west, south = WEST + 290.0, SOUTH  # from outside the path of the slab into it
-    ring = [[west, south], [west + 30.0, south], [west + 30.0, MIDDLE], [west, MIDDLE], [west, south]]
-    path.write_text(
-        '{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::31287"}}, '
-        '"features": [{"type": "Feature", "properties": {}, "geometry": '
-        f'{{"type": "Polygon", "coordinates": [{ring}]}}}}]}}'
-    )
-    (found,) = assets_hit(run, polygons=path)
-    assert found.name == "polygon 1" and found.max_thickness_m == THICKNESS
+    write_polygons(path, {"name": "School"}, {"Name": "a\nb"}, {"name": ""}, {})
+    found, *others = assets_hit(run, polygons=path)
+    assert found.name == "School" and [each.name for each in others] == ["polygon 2", "polygon 3", "polygon 4"]
+    assert found.max_thickness_m == THICKNESS
     assert found.arrival_time_s == pytest.approx((290.0 - 140.0) / SPEED, abs=CELL / SPEED)
 
 

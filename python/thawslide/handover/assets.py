@@ -19,7 +19,7 @@ from rasterio.transform import from_origin
 
 from thawslide.arrays import Numbers
 from thawslide.atomic_file import atomic_file
-from thawslide.errors import ReportError
+from thawslide.errors import ReportError, printable
 from thawslide.map_files import read_polygons
 from thawslide.maps import Grid
 from thawslide.run_folder import Run
@@ -47,16 +47,17 @@ class Asset:
 def assets_hit(run: Run, polygons: Path | None = None, points: Sequence[tuple[str, float, float]] = ()) -> list[Asset]:
     """Return the values of assets in a 3D run on a DEM, polygons first, in the order given.
 
-    polygons: file of polygons (GeoPackage, GeoJSON, Shapefile, KML), numbered from 1. points: name, x and y [m] in the
-    coordinate reference system of the run. NotInRunError without maps, ReportError for assets outside them.
+    polygons: file of polygons (GeoPackage, GeoJSON, Shapefile, KML); without the attribute `name`, the name is
+    "polygon 1". points: name, x and y [m] in the coordinate reference system of the run. NotInRunError without maps,
+    ReportError for assets outside them.
     """
     maps = {name: run.maps[name].values for name in MAPS}
     pressure = run.maps["max_pressure"]
     found = []
     if polygons is not None:
-        rings, _ = read_polygons(polygons, pressure.wkt)
-        for number, polygon in enumerate(rings, start=1):
-            name = f"polygon {number}"
+        rings, names, _ = read_polygons(polygons, pressure.wkt)
+        for number, (polygon, given) in enumerate(zip(rings, names, strict=True), start=1):
+            name = " ".join(printable(given).split()) or f"polygon {number}"
             found.append(_asset(name, _cells_of_polygon(pressure.grid, polygon, name), maps))
     for name, x, y in points:
         found.append(_asset(name, _cell_of_point(pressure.grid, x, y, name), maps))

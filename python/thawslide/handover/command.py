@@ -105,7 +105,7 @@ def assets(arguments: Sequence[str] | None = None) -> int:
         "--polygons",
         metavar="FILE",
         type=Path,
-        help="outlines of assets, numbered from 1: GeoPackage, GeoJSON, Shapefile or KML",
+        help="outlines of assets, with the attribute `name`: GeoPackage, GeoJSON, Shapefile or KML",
     )
     parser.add_argument(
         "--point",

@@ -85,7 +85,7 @@ class Dem:
 
     def cells_within(self, path: Path) -> Mask:
         """Return the cells whose centres are inside the polygons of a file."""
-        polygons, notes = read_polygons(path, self.raster.crs)
+        polygons, _, notes = read_polygons(path, self.raster.crs)
         self.notes.extend(notes)
         corners = np.concatenate([ring for rings in polygons for ring in rings])
         (west, south), (east, north) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()

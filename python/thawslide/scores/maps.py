@@ -79,7 +79,7 @@ def _cells_within(file: Path, stack: RasterStack, notes: list[str]) -> tuple[NDA
     Their grid is extended to the polygons: an area outside the maps is missed.
     """
     grid = stack.grid
-    polygons, found = read_polygons(file, grid.crs)
+    polygons, _, found = read_polygons(file, grid.crs)
     notes += found
     corners = np.concatenate([ring for rings in polygons for ring in rings])
     (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
