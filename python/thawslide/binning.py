@@ -95,7 +95,7 @@ def gather(grid: Grid, snapshot: Snapshot, width: float) -> Columns:
         snapshot.time,
         Map(grid, volumes / grid.cell_area, "m", "thickness"),
         Map(grid, _ratio(momenta, masses), "m/s", "speed"),
-        Map(grid, _ratio(warmth, bases), "C", "basal temperature"),
+        Map(grid, _ratio(warmth, bases), "degC", "basal temperature"),
         Map(grid, _ratio(pressures[0], bases), "Pa", "basal pore pressure") if pressures else None,
     )
 
@@ -113,14 +113,14 @@ def gather_base(grid: Grid, snapshot: Snapshot, width: float) -> BaseColumns:
     segments = snapshot.base
     if not segments:
         nothing = np.full((grid.rows, grid.columns), np.nan)
-        return BaseColumns(Map(grid, nothing, "1", ""), Map(grid, nothing, "C", ""))
+        return BaseColumns(Map(grid, nothing, "1", ""), Map(grid, nothing, "degC", ""))
     x, y = segments["position_m"][:, 0], segments["position_m"][:, 1]
     area = segments["area_m2"]
     amounts = [area * segments[name] for name in ("normal_pressure_Pa", "pore_pressure_Pa", "temperature_C")]
     areas, loads, pressures, warmth = spread(grid, x, y, width, [area, *amounts])
     return BaseColumns(
         Map(grid, _ratio(pressures, loads), "1", "pore pressure over normal pressure"),
-        Map(grid, _ratio(warmth, areas), "C", "band temperature"),
+        Map(grid, _ratio(warmth, areas), "degC", "band temperature"),
     )
 
 

@@ -107,10 +107,15 @@ class Map:
 
     grid: Grid
     values: Numbers
-    unit: str = ""
+    unit: str = ""  # as in the CF conventions
     description: str = ""
     crs: str = ""  # name of the coordinate reference system, "" if unknown
     wkt: str = ""  # the same as well-known text
+
+    def __repr__(self) -> str:
+        values = self.values[np.isfinite(self.values)]
+        found = f"{values.min():.6g} to {values.max():.6g} {self.unit}".strip() if values.size else "no data"
+        return f"Map({self.description!r}, {self.grid.rows} x {self.grid.columns} cells, {found})"
 
     def cropped(self, box: Box) -> Map:
         """Return the part whose cells overlap a box."""
@@ -214,7 +219,7 @@ class Maps(Mapping[str, Map]):
     def about(self, name: str) -> tuple[str, str]:
         """Return description and unit of a map, from its file."""
         with _open(self.folder / f"{name}.tif") as file:
-            return file.descriptions[0] or "", file.units[0] or ""
+            return file.descriptions[0] or "", _unit_of(file)
 
 
 def read_map(path: Path) -> Map:
@@ -224,7 +229,7 @@ def read_map(path: Path) -> Map:
             _check_size(file, path)
             transform, crs = file.transform, file.crs
             band = file.read(1, masked=True, out_dtype="float64")
-            unit, description = file.units[0] or "", file.descriptions[0] or ""
+            unit, description = _unit_of(file), file.descriptions[0] or ""
     except (RasterioError, OSError, ValueError, MemoryError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}). Repeat the run.") from error
     if not np.isfinite(transform[:6]).all():
@@ -247,6 +252,10 @@ def read_map(path: Path) -> Map:
 def on_map(run: Run) -> bool:
     """Return whether figures of a run are maps: a 3D run on a DEM."""
     return run.dimension == 3 and (run.section("terrain").get("type") == "dem" or (run.folder / "maps").is_dir())
+
+
+def _unit_of(file: rasterio.DatasetReader) -> str:
+    return cf_unit(file.units[0]) if file.units[0] else ""
 
 
 def _open(path: Path) -> rasterio.DatasetReader:

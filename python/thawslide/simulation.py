@@ -61,8 +61,8 @@ class LiveMaps(Mapping[str, Map]):
         kind = self._kinds[name]
         values, x, y, cell_x, cell_y, crs = self._core.map(name)
         numbers = cast(NDArray[np.float64], values)
-        rows, columns = numbers.shape
-        return Map(Grid(x, y, cell_x, cell_y, columns, rows), numbers, kind.unit, kind.text, *named_system(crs))
+        grid = Grid(x, y, cell_x, cell_y, numbers.shape[1], numbers.shape[0])
+        return Map(grid, numbers, cf_unit(kind.unit), kind.text, *named_system(crs))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._kinds)

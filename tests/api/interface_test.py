@@ -80,7 +80,11 @@ def test_maps_and_key_numbers_are_those_of_the_run(tmp_path: Path) -> None:
     for name, live in simulation.maps.items():
         written = run.maps[name]
         assert live.grid.box == pytest.approx(written.grid.box) and live.unit == written.unit, name
+        assert repr(live).startswith(f"Map({live.description!r}, {live.grid.rows} x {live.grid.columns} cells, "), name
+        assert len(repr(live)) < 200, name
         np.testing.assert_allclose(live.values, written.values, rtol=1e-6, err_msg=name)
+    assert run.maps["max_basal_temperature"].unit == simulation.maps["max_basal_temperature"].unit == "degC"
+    assert run.maps.about("max_basal_temperature")[1] == "degC"
     numbers = simulation.key_numbers
     assert numbers["affected_area_m2"] == run.facts["affected_area_m2"] > 0.0
     assert all(numbers[name] == run.facts[name] for name in numbers if run.facts.get(name) is not None)
