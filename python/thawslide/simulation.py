@@ -288,6 +288,8 @@ class Simulation:
         if math.isnan(target):
             raise _core.UserError("until is not a number. Specify a time [s].")
         if callback is None:
+            if every is not None or every_steps is not None:
+                raise _core.UserError("`every` and `every_steps` need a callback. Specify it, or omit the interval.")
             self._advance(target, sys.maxsize)
             return
         if (every is None) == (every_steps is None):

@@ -138,6 +138,16 @@ def test_a_callback_at_short_intervals_is_called_once_per_step(slope: Path) -> N
     np.testing.assert_allclose(times, 0.005 * np.arange(1, 6))
 
 
+def test_an_interval_and_a_callback_need_each_other(slope: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    for interval in ({"every": 0.1}, {"every_steps": 2}):
+        with pytest.raises(UserError, match=r"`every` and `every_steps` need a callback"):
+            simulation.run(until=0.2, **interval)  # type: ignore[arg-type]
+    with pytest.raises(UserError, match="a callback needs one of `every`"):
+        simulation.run(until=0.2, callback=lambda now: None)
+    assert simulation.time == 0.0
+
+
 def test_objects_have_texts(slope: Path, tmp_path: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     assert repr(simulation).startswith("Simulation('") and "t = 0 s of 1 s" in repr(simulation)
