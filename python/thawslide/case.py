@@ -8,13 +8,13 @@ import math
 import tempfile
 import tomllib
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 from thawslide import _core
+from thawslide.errors import errors_with_parameters
 
 __all__ = ["Case"]
 
@@ -49,15 +49,6 @@ def _keys(table: str, part: Mapping[str, object]) -> Iterator[tuple[str, object]
             yield from _keys(f"{table}.{key}", value)
         else:
             yield f"{table}.{key}", value
-
-
-@contextmanager
-def without_options() -> Iterator[None]:
-    """Word errors of changed keys without the option of the command line that changes them."""
-    try:
-        yield
-    except _core.UserError as error:
-        raise _core.UserError(str(error).replace("--set ", "")) from None
 
 
 class Case:
@@ -155,7 +146,7 @@ class Case:
     @cached_property
     def _core(self) -> _core.Case:
         sets = [(f"{key}={text}", folder) for key, (text, folder) in self._sets.items()]
-        with without_options():
+        with errors_with_parameters():
             return _core.case_of(self._files, sets)
 
     @cached_property

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 
 class ReportError(Exception):
@@ -17,6 +18,15 @@ class NotInRunError(ReportError):
 
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 _SHOWN = 60  # characters of a found text
+_OPTION = re.compile(r"(?<![\w/.-])--((?:set |end (?=T\b))|[a-z]+(?:-[a-z]+)*(?![\w-]))")
+_PARAMETERS = {
+    "set ": "",
+    "end ": "time.end=",
+    "end": "time.end",
+    "overwrite": "overwrite=True",
+    "cut": "cut=True",
+    "brief": "brief=True",
+}
 
 
 def quoted(text: str) -> str:
@@ -34,3 +44,23 @@ def nearest(found: str, known: Iterable[str]) -> str:
     """Return "; did you mean NAME?" with the known name nearest to the found one, "." if none is near."""
     near = difflib.get_close_matches(found[:_SHOWN], list(known), 1)
     return f"; did you mean {near[0]}?" if near else "."
+
+
+def with_parameters(text: str) -> str:
+    """Return a message with keys and parameters of Python in place of options, except those in commands."""
+    lines = []
+    for line in text.split("\n"):
+        before, command, after = line.partition("thawslide ")
+        lines.append(_OPTION.sub(lambda option: _PARAMETERS.get(option[1], option[1].replace("-", "_")), before))
+        lines[-1] += command + after
+    return "\n".join(lines)
+
+
+@contextmanager
+def errors_with_parameters() -> Iterator[None]:
+    """Let errors name parameters of Python in place of options of the command line."""
+    try:
+        yield
+    except Exception as error:
+        error.args = tuple(with_parameters(each) if isinstance(each, str) else each for each in error.args)
+        raise

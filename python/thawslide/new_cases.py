@@ -8,6 +8,7 @@ from os import PathLike, fspath
 
 from thawslide import _core
 from thawslide.case import Case
+from thawslide.errors import with_parameters
 from thawslide.program import find_program
 from thawslide.simulation import print_message
 
@@ -70,7 +71,7 @@ def new_case(
     Raises
     ------
     UserError
-        With the message of the command line, which names its options.
+        For invalid numbers or files, and a folder that exists.
 
     Examples
     --------
@@ -99,7 +100,8 @@ def new_case(
     command += ["--cut"] if cut else []
     done = subprocess.run([*command, "--", fspath(folder)], capture_output=True, text=True)
     if done.returncode != 0:
-        raise _core.UserError(done.stderr.strip().removeprefix("error: "))
+        error = done.stderr.strip().removeprefix("error: ").removesuffix(" Run with --help for more information.")
+        raise _core.UserError(with_parameters(error))
     for line in (*done.stderr.splitlines(), *done.stdout.splitlines()):
-        on_message(line)
+        on_message(with_parameters(line))
     return Case(folder)

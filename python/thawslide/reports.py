@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 
-from thawslide.errors import ReportError, nearest, quoted
+from thawslide.errors import ReportError, errors_with_parameters, nearest, quoted
 from thawslide.figures import FIGURES
 from thawslide.messages import LANGUAGES
 from thawslide.pages.comparison import make_comparison
@@ -81,16 +81,14 @@ def report(
 ) -> Path:
     """Write the page of a run with its figures, as `thawslide report`, and return its path.
 
-    With other runs, the page compares them. output: the folder of the page, by default that of the first run. only:
-    names of figures to plot again; the page keeps the others. brief: write a two-page summary for non-experts, as a
-    page and a PDF file. dpi: resolution of the figures, 30 to 1200 dots per inch. language: of the results and the
-    summary, "en", "de" or "fr". Damaged files are named on the page, and `Run.warnings` lists them. Raises ReportError.
     """
     if language not in LANGUAGES:
         allowed = ", ".join(LANGUAGES)
         raise ReportError(f"language: unknown (found {quoted(language)}; allowed {allowed}). Correct it.")
     if not LEAST_DPI <= dpi <= MOST_DPI:
         raise ReportError(f"dpi: not a valid resolution (found {dpi}; allowed {LEAST_DPI} to {MOST_DPI}). Correct it.")
-    names = figure_names(only)
-    runs = [each if isinstance(each, Run) else Run(Path(each), skip_damaged=True) for each in (run, *others)]
-    return write_pages(runs, None if output is None else Path(output), names, brief, dpi, language=language).files[0][1]
+    folder = None if output is None else Path(output)
+    with errors_with_parameters():
+        names = figure_names(only)
+        runs = [each if isinstance(each, Run) else Run(Path(each), skip_damaged=True) for each in (run, *others)]
+        return write_pages(runs, folder, names, brief, dpi, language=language).files[0][1]

@@ -10,6 +10,7 @@ import pandas as pd
 
 from thawslide import _core
 from thawslide.case import Case, toml_text
+from thawslide.errors import errors_with_parameters, with_parameters
 from thawslide.run_folder import Run
 from thawslide.simulation import print_message, require_threads
 
@@ -28,11 +29,11 @@ class _Lines(_core.Observer):
     def text(self, line: str) -> None:
         if self.shows_progress or line.startswith(("warning: ", "note: ")):
             self.end_progress()
-            print_message(line)
+            print_message(with_parameters(line))
 
     def error(self, line: str) -> None:
         self.end_progress()
-        self.reason = line
+        self.reason = with_parameters(line)
 
     def progress(self, state: _core.ProgressState) -> None:
         if self.shows_progress:
@@ -56,7 +57,8 @@ _ERRORS = {
 def _run_of(folder: str, work: Callable[[], _core.ExitCode], lines: _Lines) -> Run:
     """Return the run in a folder after its work, or raise the error that ended it early."""
     try:
-        code = work()
+        with errors_with_parameters():
+            code = work()
     except KeyboardInterrupt as interrupt:
         raise KeyboardInterrupt(lines.reason) from interrupt
     if code in _ERRORS:
@@ -193,4 +195,5 @@ def block(case: Case | str | PathLike[str], *, threads: int = 1) -> pd.DataFrame
     """
     require_threads(threads)
     case = case if isinstance(case, Case) else Case(case)
-    return pd.DataFrame(_core.block(case._core, _Lines(False), threads))
+    with errors_with_parameters():
+        return pd.DataFrame(_core.block(case._core, _Lines(False), threads))

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from thawslide import _core
 from thawslide.basal_law import BasalLaw, CheckedLaw
 from thawslide.case import Case, toml_text
+from thawslide.errors import errors_with_parameters, with_parameters
 from thawslide.maps import Grid, Map, named_system
 from thawslide.units import cf_unit
 
@@ -82,10 +83,10 @@ class _Messages(_core.Observer):
         self._on_message = on_message
 
     def text(self, line: str) -> None:
-        self._on_message(line)
+        self._on_message(with_parameters(line))
 
     def error(self, line: str) -> None:
-        self._on_message(line)
+        self._on_message(with_parameters(line))
 
 
 def require_threads(threads: int) -> None:
@@ -149,7 +150,8 @@ class Simulation:
         self.case = case.copy() if isinstance(case, Case) else Case(case)
         self.threads = threads
         self._messages = _Messages(on_message)
-        self._core = _core.make_live_run(self.case._core, self._messages, threads)
+        with errors_with_parameters():
+            self._core = _core.make_live_run(self.case._core, self._messages, threads)
         self._failed = False
         if basal_law is not None and not self._core.has_basal_law:
             raise _core.UserError(
@@ -312,7 +314,8 @@ class Simulation:
         case = self.case.copy()
         case.change(changes)
         self._require_intact()
-        self._core.change(case._core, [f"{key}={toml_text(value)}" for key, value in changes.items()], self.threads)
+        with errors_with_parameters():
+            self._core.change(case._core, [f"{key}={toml_text(value)}" for key, value in changes.items()], self.threads)
         self.case = case
 
     def checkpoint(self) -> bytes:

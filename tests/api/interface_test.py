@@ -3,6 +3,7 @@
 import math
 import pickle
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,9 @@ import pytest
 from conftest import ROOT
 
 import thawslide
-from thawslide import Case, Logger, Run, Simulation, UserError
+from thawslide import Case, Logger, ReportError, Run, Simulation, UserError
+from thawslide.errors import with_parameters
+from thawslide.scarps.surfaces import Plane
 
 VALLEY = ROOT / "cases" / "valley3d"
 
@@ -111,10 +114,44 @@ def test_a_pickled_case_keeps_its_changes(slope: Path) -> None:
     assert other["basal.friction_angle"] == 21.0 and other.to_toml() == case.to_toml()
 
 
-def test_messages_of_changes_do_not_name_options_of_the_command_line(slope: Path) -> None:
-    with pytest.raises(UserError) as raised:
-        Case(slope, {"band.thickness": -1.0})
-    assert "--set" not in str(raised.value) and str(raised.value).startswith("band.thickness=-1.0: ")
+def test_errors_name_keys_and_parameters_in_place_of_options(slope: Path, tmp_path: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent)
+    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
+    dem, release = VALLEY / "valley.tif", VALLEY / "release.geojson"
+    plane = Plane(x=402000.0, y=6502900.0, dip=25.0, direction=110.0)
+    wrong: dict[str, Callable[[], object]] = {
+        r"^band\.thickness=-1\.0: band\.thickness is -1": lambda: Case(slope, {"band.thickness": -1.0}),
+        r"^time\.step=10\.0: time\.step is 10 s": lambda: simulation.change({"time.step": 10.0}),
+        r"^time\.step=10\.0: ": lambda: thawslide.resume(run.folder, {"time.end": 2.0, "time.step": 10.0}),
+        r"^grid\.cel=3: key 'grid\.cel' is not known": lambda: thawslide.resume(run.folder, {"grid.cel": 3}),
+        r"Specify another output, or replace that run with overwrite=True": lambda: thawslide.run(slope, run.folder),
+        r"^only: no figure 'xx'": lambda: thawslide.report(run, only="xx"),
+        r"^brief=True: allowed with one RUN only": lambda: thawslide.report(run, run, brief=True),
+        r"^cell.* -1(?!.*help)": lambda: thawslide.new_case(dem, release, tmp_path / "new", cell=-1),
+        r"^volume: ": lambda: thawslide.scarp(dem, plane, volume=-1.0),
+        r"^keep: invalid": lambda: thawslide.sweep(slope, vary={"grid.cell": [5.0]}, keep="few"),
+    }
+    for message, work in wrong.items():
+        with pytest.raises((UserError, ReportError), match=message) as raised:
+            work()
+        assert "--" not in str(raised.value)
+
+
+def test_warnings_name_keys_in_place_of_options(slope: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lines: list[str] = []
+    case = Case(slope, {"basal.friction_angle": 1.0})
+    Simulation(case, threads=1, on_message=lines.append)
+    assert any(line.startswith("warning: basal.friction_angle=1.0: ") for line in lines), lines
+    thawslide.run(case, slope.parent / "run", threads=1, progress=False)
+    assert "warning: basal.friction_angle=1.0: " in capsys.readouterr().err
+
+
+def test_options_in_commands_remain() -> None:
+    text = "To continue, add --set time.stop_at_rest=0 or --end T.\nstopped: thawslide resume runs/a --end 3"
+    assert with_parameters(text) == (
+        "To continue, add time.stop_at_rest=0 or time.end=T.\nstopped: thawslide resume runs/a --end 3"
+    )
+    assert with_parameters("runs/a--b: --reach-angle is 0") == "runs/a--b: reach_angle is 0"
 
 
 def test_a_logger_records_quantities_at_intervals(slope: Path) -> None:

@@ -14,7 +14,7 @@ from thawslide.errors import ReportError, nearest, quoted
 from thawslide.number_text import plain_text
 from thawslide.scarps.output import outline_file, require_output, write_release
 from thawslide.scarps.picture import write_picture
-from thawslide.scarps.release import Release, Surface, scarp
+from thawslide.scarps.release import Release, Surface, release_below
 from thawslide.scarps.surfaces import Ellipsoid, Plane, Slbl
 
 _LARGE = 200e6  # m3: the usual body.NAME.largest_volume
@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         inputs = [given.dem, *([given.within] if given.within else [])]
         require_output(given.output, given.picture, inputs, given.overwrite)
-        release = scarp(given.dem, _surface(given), within=given.within, volume=given.volume, crs=given.crs)
+        release = release_below(given.dem, _surface(given), given.within, given.volume, given.crs)
         write_release(release, given.output)
         if given.picture:
             write_picture(release, given.picture)

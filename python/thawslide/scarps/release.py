@@ -12,7 +12,7 @@ from rasterio.features import shapes
 
 from thawslide.arrays import Numbers
 from thawslide.contours import Polygon
-from thawslide.errors import ReportError
+from thawslide.errors import ReportError, errors_with_parameters
 from thawslide.number_text import plain_text
 from thawslide.scarps.dem_file import Dem, Mask, read_dem
 from thawslide.scarps.regions import part_with
@@ -124,15 +124,24 @@ def scarp(
     Raises
     ------
     ReportError
-        With the message of the command line: invalid numbers or files, an outline outside the DEM or with cells
-        without data, no cell of the DEM above the surface, or a volume that cannot be reached.
+        For invalid numbers or files, an outline outside the DEM or with cells without data, no cell of the DEM above
+        the surface, or a volume that cannot be reached.
 
     Examples
     --------
-    >>> release = scarp("dem.tif", Plane(x=2600100, y=1198400, dip=35, direction=120))  # doctest: +SKIP
+    >>> valley, plane = "cases/valley3d", Plane(x=401900, y=6502900, dip=25, direction=110)
+    >>> release = scarp(f"{valley}/valley.tif", plane, within=f"{valley}/release.geojson", volume=1e6)
+    >>> round(release.volume, -4)
+    1000000.0
 
     """
-    terrain = read_dem(Path(dem), crs)
+    with errors_with_parameters():
+        return release_below(Path(dem), surface, None if within is None else Path(within), volume, crs)
+
+
+def release_below(dem: Path, surface: Surface, within: Path | None, volume: float | None, crs: str | None) -> Release:
+    """Return the release of `scarp`; errors name the options of the command line."""
+    terrain = read_dem(dem, crs)
     if volume is not None:
         check_positive("--volume", volume, "m3", DEEPEST * terrain.heights.size * terrain.cell_area)
     inside = None if within is None else terrain.cells_within(Path(within))

@@ -17,7 +17,7 @@ import pandas as pd
 
 from thawslide import _core
 from thawslide.case import Case
-from thawslide.errors import ReportError
+from thawslide.errors import ReportError, errors_with_parameters
 from thawslide.simulation import print_message
 from thawslide.sweeps.declared import declared_columns, limits_of_key
 from thawslide.sweeps.design import FACTORIAL, Design, Member, parse_sample
@@ -137,30 +137,33 @@ def sweep(
     2
 
     """
-    files = [cases] if isinstance(cases, str | PathLike) else list(cases)
-    variables: list[Variable] = [levels(key, list(values)) for key, values in (vary or {}).items()]
-    for kind, pairs in (("range", ranges), ("normal", normal), ("lognormal", lognormal)):
-        variables += [distribution(kind, key, float(pair[0]), float(pair[1])) for key, pair in (pairs or {}).items()]
-    method, count = parse_sample(sample) if sample else (FACTORIAL, 0)
-    ties = tuple(Expression(key, text, "--tie") for key, text in (tie or {}).items())
-    correlations = tuple((*pair, float(value)) for pair, value in (correlate or {}).items())
-    paths = tuple(absolute_case(file) for file in files)
-    design = Design(paths, tuple(variables), method, count, seed, ties, correlations)
-    options = Options(
-        output=None if output is None else Path(output),
-        is_block=block,
-        expressions=tuple(Expression(name, text) for name, text in (columns or {}).items()),
-        keep=keep,
-        results=tuple(results),
-        thresholds=thresholds,
-        workers=workers,
-        scheduler=scheduler,
-        max_failures=max_failures,
-        retries_failed=retry_failed,
-        shows_progress=progress,
-        report=print_message if progress else lambda line: None,
-    )
-    return run_sweep(design, options)[1]
+    with errors_with_parameters():
+        files = [cases] if isinstance(cases, str | PathLike) else list(cases)
+        variables: list[Variable] = [levels(key, list(values)) for key, values in (vary or {}).items()]
+        for kind, pairs in (("range", ranges), ("normal", normal), ("lognormal", lognormal)):
+            variables += [
+                distribution(kind, key, float(pair[0]), float(pair[1])) for key, pair in (pairs or {}).items()
+            ]
+        method, count = parse_sample(sample) if sample else (FACTORIAL, 0)
+        ties = tuple(Expression(key, text, "--tie") for key, text in (tie or {}).items())
+        correlations = tuple((*pair, float(value)) for pair, value in (correlate or {}).items())
+        paths = tuple(absolute_case(file) for file in files)
+        design = Design(paths, tuple(variables), method, count, seed, ties, correlations)
+        options = Options(
+            output=None if output is None else Path(output),
+            is_block=block,
+            expressions=tuple(Expression(name, text) for name, text in (columns or {}).items()),
+            keep=keep,
+            results=tuple(results),
+            thresholds=thresholds,
+            workers=workers,
+            scheduler=scheduler,
+            max_failures=max_failures,
+            retries_failed=retry_failed,
+            shows_progress=progress,
+            report=print_message if progress else lambda line: None,
+        )
+        return run_sweep(design, options)[1]
 
 
 def absolute_case(file: str | PathLike[str]) -> str:
