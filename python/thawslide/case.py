@@ -170,7 +170,19 @@ class Case:
         self.change({key: value})
 
     def change(self, changes: Mapping[str, object]) -> None:
-        """Replace several keys at once; UserError if the case would not be valid."""
+        """Replace several keys at once.
+
+        Parameters
+        ----------
+        changes : mapping
+            Keys such as "band.thickness", with their values. Paths are relative to the working directory.
+
+        Raises
+        ------
+        UserError
+            If the case would not be valid; it is then unchanged.
+
+        """
         other = copy.copy(self)  # by __getstate__: without the values read
         other._sets |= {key: (toml_text(value), str(Path.cwd())) for key, value in changes.items()}
         _ = other._core  # UserError

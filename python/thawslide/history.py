@@ -1,4 +1,4 @@
-"""Time series: history.csv, probes.csv and the table of a rigid block, as columns by name."""
+"""Tables of a run: history.csv, probes.csv and the table of a rigid block as columns by name, and terrain.csv."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, quoted
-from thawslide.text_files import number
+from thawslide.text_files import finite_number, number, read_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -81,6 +81,21 @@ def read_history(path: Path, warnings: list[str]) -> History:
         raise ReportError(f"{path}: no rows after the header. Wait for the first row of the run.")
     table = np.array(values, dtype=np.float64).reshape(-1, len(names))
     return History(path.name, {name: table[:, place].copy() for place, name in enumerate(names)})
+
+
+def read_terrain(path: Path) -> tuple[Numbers, Numbers]:
+    """Return distance and elevation [m] of a terrain; ReportError if it is damaged."""
+    rows = read_table(path, ("distance_m", "terrain_elevation_m")).rows
+    if not rows:
+        raise ReportError(f"{path}: no rows after the header. Repeat the run.")
+    distance, height = (
+        np.array([finite_number(row[name], f"{path}:{line}") for line, row in rows])
+        for name in ("distance_m", "terrain_elevation_m")
+    )
+    back = np.flatnonzero(np.diff(distance) <= 0.0)
+    if back.size:
+        raise ReportError(f"{path}:{rows[int(back[0]) + 1][0]}: distance_m does not increase. Repeat the run.")
+    return distance, height
 
 
 def _header(file: BinaryIO, path: Path) -> list[str]:

@@ -118,12 +118,28 @@ class Map:
         return f"Map({self.description!r}, {self.grid.rows} x {self.grid.columns} cells, {found})"
 
     def cropped(self, box: Box) -> Map:
-        """Return the part whose cells overlap a box."""
+        """Return the part whose cells overlap a box.
+
+        Parameters
+        ----------
+        box : tuple of float
+            West, east, south and north [m].
+
+        """
         rows, columns = self.grid.part(box)
         return replace(self, grid=self.grid.cropped(box), values=self.values[rows, columns])
 
     def thinned(self, most: int, reduction: Literal["mean", "maximum"] = "mean") -> Map:
-        """Return the map with at most `most` cells per side: each block of cells is reduced to one value."""
+        """Return the map with larger cells: each block of cells is reduced to one value.
+
+        Parameters
+        ----------
+        most : int
+            Maximum number of cells per side.
+        reduction : str
+            "mean" or "maximum" of the block.
+
+        """
         factor = self.grid.factor(most)
         if factor == 1:
             return self
@@ -136,14 +152,33 @@ class Map:
         return replace(self, grid=grid, values=values)
 
     def averaged_over(self, grid: Grid) -> Map:
-        """Return the area-weighted means over the cells of another grid; no data and the outside count as zero."""
+        """Return the area-weighted means over the cells of another grid; no data and the outside count as zero.
+
+        Parameters
+        ----------
+        grid : Grid
+            The other grid, such as that of another map.
+
+        """
         own = self.grid
         rows = _means(np.nan_to_num(self.values), (own.y0, own.cell_y), (grid.y0, grid.cell_y, grid.rows))
         values = _means(rows.T, (own.x0, own.cell_x), (grid.x0, grid.cell_x, grid.columns)).T
         return replace(self, grid=grid, values=values)
 
     def at(self, x: Numbers, y: Numbers) -> Numbers:
-        """Return values at points [m] by bilinear interpolation; nan outside and next to no-data cells."""
+        """Return values at points by bilinear interpolation.
+
+        Parameters
+        ----------
+        x, y : array
+            Eastings and northings [m], of equal shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            Values of the same shape; nan outside and next to no-data cells.
+
+        """
         grid = self.grid
         u, v = (np.asarray(x) - grid.x0) / grid.cell_x, (np.asarray(y) - grid.y0) / grid.cell_y
         inside = (u >= 0.0) & (u <= grid.columns - 1) & (v >= 0.0) & (v <= grid.rows - 1)

@@ -79,7 +79,40 @@ def report(
     dpi: int = 150,
     language: str = LANGUAGES[0],
 ) -> Path:
-    """Write the page of a run with its figures, as `thawslide report`, and return its path.
+    """Write the page of a run with its figures, as `thawslide report`.
+
+    Parameters
+    ----------
+    run : Run, str or path
+        The run or its folder.
+    *others : Run, str or path
+        Other runs, with which the page compares the first one.
+    output : str or path, optional
+        The folder of the page, by default that of the first run.
+    only : str or sequence of str, optional
+        Names of figures to plot again; the page keeps the others.
+    brief : bool
+        Write a two-page summary for readers without a technical background, as a page and a PDF file.
+    dpi : int
+        Resolution of the figures, 30 to 1200 dots per inch.
+    language : str
+        Language of the results and the summary: "en", "de" or "fr".
+
+    Returns
+    -------
+    Path
+        The page. It names damaged files, and `Run.warnings` lists them.
+
+    Raises
+    ------
+    ReportError
+        For invalid parameters, and a folder that is no run or cannot be read.
+
+    Examples
+    --------
+    >>> done = run("cases/block/e100.toml", "runs/report", progress=False)
+    >>> report(done, only="motion").name
+    'report.html'
 
     """
     if language not in LANGUAGES:

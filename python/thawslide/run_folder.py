@@ -12,13 +12,13 @@ import numpy as np
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, printable, quoted
 from thawslide.force_record import ForceRecord, read_force_record
-from thawslide.history import History, read_history
+from thawslide.history import History, read_history, read_terrain
 from thawslide.number_text import integer_text
 from thawslide.resolved_case import Case, read_case
 from thawslide.run_facts import Ending, ending_of, read_facts
 from thawslide.snapshot import Snapshot, snapshot_time
 from thawslide.targets import Band, Target, read_targets
-from thawslide.text_files import finite_number, is_file, read_table
+from thawslide.text_files import is_file
 from thawslide.time_reference import shifted_targets
 
 if TYPE_CHECKING:
@@ -44,7 +44,13 @@ class Run:
     def __init__(self, folder: Path | str, skip_damaged: bool = False) -> None:
         """Open a run folder; ReportError if it is none.
 
-        skip_damaged: damaged snapshots are listed in `warnings` and skipped; otherwise they raise ReportError.
+        Parameters
+        ----------
+        folder : str or path
+            The folder.
+        skip_damaged : bool
+            List damaged snapshots in `warnings` and skip them; by default, they raise ReportError.
+
         """
         self.folder = Path(folder)
         if not self.folder.is_dir():
@@ -97,12 +103,26 @@ class Run:
         return float(width["value"][0] if isinstance(width, dict) else width)
 
     def section_areas(self, shot: Snapshot) -> Numbers:
-        """Return the area [m2] of each particle of a 2D run in the section: its volume over the width there."""
+        """Return the area [m2] of each particle of a 2D run in the section: its volume over the width there.
+
+        Parameters
+        ----------
+        shot : Snapshot
+            A snapshot with the field `volume`.
+
+        """
         volume = np.asarray(shot["volume"], dtype=np.float64)
         return np.asarray(volume / self.relative_width(shot.points[:, 0]))
 
     def relative_width(self, x: Numbers) -> Numbers:
-        """Return the ratio of the width of the section at x [m] to `width`, 1 if it is constant."""
+        """Return the ratio of the width of the section to `width`, 1 if it is constant.
+
+        Parameters
+        ----------
+        x : array
+            Distances along the section [m].
+
+        """
         width = self.section("case").get("width", 0.0)
         if not isinstance(width, dict):
             return np.ones_like(x)
@@ -114,7 +134,14 @@ class Run:
         return [float(time) for time in self.section("report").get("times", [])]
 
     def section(self, name: str) -> dict[str, Any]:
-        """Return one table of the case file, empty if it does not exist."""
+        """Return one table of the case file, empty if it does not exist.
+
+        Parameters
+        ----------
+        name : str
+            The table, such as "grid".
+
+        """
         return dict(self.case.get(name, {}))
 
     @property
@@ -141,9 +168,7 @@ class Run:
     def probe_series(self) -> History | None:
         """The same columns as arrays by name."""
         path = self.folder / "probes.csv"
-        if not is_file(path):
-            return None
-        return read_history(path, self.warnings)
+        return read_history(path, self.warnings) if is_file(path) else None
 
     @cached_property
     def maps(self) -> Maps:
@@ -153,9 +178,25 @@ class Run:
         return Maps(self)
 
     def features(self, layer: str) -> list[Feature]:
-        """Return the features of a layer of maps/results.gpkg, for example "affected_area" or "path".
+        """Return the features of a layer of maps/results.gpkg.
 
-        NotInRunError without the layer, ReportError for a damaged file.
+        Parameters
+        ----------
+        layer : str
+            The layer, for example "affected_area" or "path".
+
+        Returns
+        -------
+        list of Feature
+            Geometry and attributes of each feature.
+
+        Raises
+        ------
+        NotInRunError
+            Without the layer.
+        ReportError
+            For a damaged file.
+
         """
         from thawslide.geopackage import read_layer  # which imports this module
 
@@ -175,19 +216,7 @@ class Run:
     def terrain(self) -> tuple[Numbers, Numbers] | None:
         """Distance and elevation [m] of the terrain, or None for a run without terrain."""
         path = self.folder / "terrain.csv"
-        if not is_file(path):
-            return None
-        rows = read_table(path, ("distance_m", "terrain_elevation_m")).rows
-        if not rows:
-            raise ReportError(f"{path}: no rows after the header. Repeat the run.")
-        distance, height = (
-            np.array([finite_number(row[name], f"{path}:{line}") for line, row in rows])
-            for name in ("distance_m", "terrain_elevation_m")
-        )
-        back = np.flatnonzero(np.diff(distance) <= 0.0)
-        if back.size:
-            raise ReportError(f"{path}:{rows[int(back[0]) + 1][0]}: distance_m does not increase. Repeat the run.")
-        return distance, height
+        return read_terrain(path) if is_file(path) else None
 
     @cached_property
     def targets(self) -> list[Target]:
@@ -272,7 +301,14 @@ class Run:
         return float(since) if self.is_at_rest and since is not None else float("inf")
 
     def titled(self, words: str) -> str:
-        """Return the title of a figure of the whole run, with its last time if the mass is not at rest."""
+        """Return the title of a figure of the whole run, with its last time if the mass is not at rest.
+
+        Parameters
+        ----------
+        words : str
+            The content of the figure.
+
+        """
         return f"{self.title}: {words}" + (
             f", up to {self.last_state}" if self.is_complete and self.is_moving_at_end else ""
         )
@@ -326,9 +362,26 @@ class Run:
     def snapshot(
         self, index: int | None = None, *, time: float | None = None, fields: Collection[str] | None = None
     ) -> Snapshot:
-        """Read one snapshot by its index in `times` (negative: from the end), or the one nearest to a time [s].
+        """Read one snapshot by its index or time.
 
-        By default all fields are read.
+        Parameters
+        ----------
+        index : int, optional
+            Index in `times`; negative: from the end.
+        time : float, optional
+            Time [s], in place of an index; the nearest snapshot is read.
+        fields : collection of str, optional
+            Fields to read, by default all.
+
+        Raises
+        ------
+        NotInRunError
+            For a run without snapshots.
+        ReportError
+            For an index that does not exist, and a damaged file.
+        ValueError
+            Unless exactly one of index and time is given.
+
         """
         if (index is None) == (time is None):
             raise ValueError("snapshot: either an index or a time is required")

@@ -76,7 +76,7 @@ class LiveMaps(Mapping[str, Map]):
 
 
 class _Messages(_core.Observer):
-    """Passes warnings and notes to a function."""
+    """Passes warnings and notes to a function, with keys and parameters in place of options."""
 
     def __init__(self, on_message: Callable[[str], None]) -> None:
         super().__init__()
@@ -229,18 +229,38 @@ class Simulation:
     def blocks(self, name: str) -> NDArray[Any]:
         """Return a read-only view of a field without a copy.
 
-        Shape (particles) for a scalar. Vectors and tensors are stored in blocks of 8 particles: shape (blocks, 8,
-        components), whose last block may have unused rows. The view shows the field until the next step, change or
-        restoration; later, its content is undefined. With an erodible bed it is a copy. Particles are in the order of
-        memory, which changes when the simulation sorts them; the field `id` identifies them. Raises UserError for an
-        unknown name.
+        The view shows the field until the next step, change or restoration; later, its content is undefined. With an
+        erodible bed it is a copy. Particles are in the order of memory, which changes when the simulation sorts them;
+        the field `id` identifies them.
+
+        Parameters
+        ----------
+        name : str
+            One of `fields`; UserError for any other.
+
+        Returns
+        -------
+        numpy.ndarray
+            Shape (particles) for a scalar. Vectors and tensors are stored in blocks of 8 particles: shape (blocks, 8,
+            components), whose last block may have unused rows.
+
         """
         return cast(NDArray[Any], self._core.field(name))
 
     def field(self, name: str) -> NDArray[Any]:
-        """Return a field by particle, in the order of memory: shape (particles) or (particles, components).
+        """Return a field by particle, in the order of memory.
 
-        A scalar is that of `blocks`. A vector or tensor is a copy; `position` is in the coordinates of the case.
+        Parameters
+        ----------
+        name : str
+            One of `fields`; UserError for any other.
+
+        Returns
+        -------
+        numpy.ndarray
+            A scalar is that of `blocks`, shape (particles). A vector or tensor is a copy, shape (particles,
+            components); `position` is in the coordinates of the case.
+
         """
         view = self.blocks(name)
         if view.ndim == 1:
@@ -249,7 +269,19 @@ class Simulation:
         return values + self.origin if name == "position" else values
 
     def step(self, steps: int = 1) -> None:
-        """Perform a number of time steps, fewer if the run ends."""
+        """Perform time steps, fewer if the run ends.
+
+        Parameters
+        ----------
+        steps : int
+            The number of steps, at least 0.
+
+        Raises
+        ------
+        UserError, RunError, KeyboardInterrupt
+            As `run`.
+
+        """
         if steps < 0:
             raise _core.UserError(f"steps is {steps}; allowed: at least 0.")
         self._advance(math.inf, steps)
@@ -279,7 +311,7 @@ class Simulation:
         Raises
         ------
         UserError
-            For a callback without an interval.
+            For a callback without an interval, and for an interval without a callback.
         RunError
             If a step fails, after which no step is possible.
         KeyboardInterrupt
@@ -310,7 +342,19 @@ class Simulation:
                 return
 
     def change(self, changes: Mapping[str, object]) -> None:
-        """Replace keys that may change during a run (those of `thawslide resume --set`); UserError otherwise."""
+        """Replace keys that may change during a run: those of `thawslide.resume`.
+
+        Parameters
+        ----------
+        changes : mapping
+            Keys with their values.
+
+        Raises
+        ------
+        UserError
+            For other keys and invalid values; the simulation is then unchanged.
+
+        """
         case = self.case.copy()
         case.change(changes)
         self._require_intact()
@@ -324,7 +368,14 @@ class Simulation:
         return self._core.checkpoint(self.threads)
 
     def restore(self, checkpoint: bytes) -> None:
-        """Return to a state of this case, of this process or another one; UserError for any other state."""
+        """Return to a state of this case, of this process or another one.
+
+        Parameters
+        ----------
+        checkpoint : bytes
+            A result of `checkpoint`; UserError for that of another case.
+
+        """
         self._core.restore(checkpoint, self.threads)
         self._failed = False
 

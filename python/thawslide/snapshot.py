@@ -38,7 +38,16 @@ class Snapshot(Mapping[str, NDArray[Any]]):
     """
 
     def __init__(self, path: Path, fields: Collection[str] | None = None) -> None:
-        """Read one snapshot file, all its fields or those named; ReportError if it is damaged or incomplete."""
+        """Read one snapshot file; ReportError if it is damaged or incomplete.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        fields : collection of str, optional
+            Fields to read, by default all.
+
+        """
         self.path = path
         with _opened(path) as file:
             self.time, self.step = file.time, file.step
@@ -78,13 +87,27 @@ class Snapshot(Mapping[str, NDArray[Any]]):
         return f"Snapshot(t = {self.time:g} s, {len(self.points)} particles: {', '.join(self._fields)})"
 
     def with_velocity(self, velocity: Numbers) -> Snapshot:
-        """Return the same snapshot with other velocities [m/s], shape (n, 3)."""
+        """Return the same snapshot with other velocities.
+
+        Parameters
+        ----------
+        velocity : array
+            Velocities [m/s], shape (n, 3).
+
+        """
         other = copy(self)
         other._fields = self._fields | {"velocity": velocity}
         return other
 
     def unit(self, name: str) -> str:
-        """Return the unit of a field as in the CF conventions, "1" without one."""
+        """Return the unit of a field as in the CF conventions, "1" without one.
+
+        Parameters
+        ----------
+        name : str
+            The field.
+
+        """
         self[name]
         return cf_unit(self._units[name])
 

@@ -129,7 +129,14 @@ class Target:
         return "" if self.unit in ("-", "1") else self.unit
 
     def in_its_unit(self, value: float) -> float:
-        """Return a value of the quantity in the unit of the file."""
+        """Return a value of the quantity in the unit of the file.
+
+        Parameters
+        ----------
+        value : float
+            The value, in the unit of `value`.
+
+        """
         factor, offset = quantity_of(self.quantity).units[self.unit]
         return (value - offset) / factor
 

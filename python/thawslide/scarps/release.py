@@ -144,7 +144,7 @@ def release_below(dem: Path, surface: Surface, within: Path | None, volume: floa
     terrain = read_dem(dem, crs)
     if volume is not None:
         check_positive("--volume", volume, "m3", DEEPEST * terrain.heights.size * terrain.cell_area)
-    inside = None if within is None else terrain.cells_within(Path(within))
+    inside = None if within is None else terrain.cells_within(within)
     if isinstance(surface, Slbl):
         release = _slbl_release(terrain, surface, inside, volume)
     elif isinstance(surface, Ellipsoid):
