@@ -240,7 +240,6 @@ class LayerReader {
     return index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? as_utf8(source.GetFieldAsString(index)) : "";
   }
 
-  // Title with the feature's number and its name.
   std::string title_of(const std::string& name) const {
     const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
     return fmt::format("{} {}{}", kind, result_.features.size() + 1,

@@ -99,6 +99,6 @@ def test_a_new_case_is_that_of_the_command_line(tmp_path: Path, command_line: Co
     made, other = ((tmp_path / name / "case.toml").read_text() for name in ("python", "shell"))
     assert made.replace('"python"', '"shell"') == other
     assert any("a release of" in line for line in lines)
-    with pytest.raises(UserError, match="^thickness: -1"):
+    with pytest.raises(UserError, match=r"^thickness: -1"):
         thawslide.new_case(**files, folder=tmp_path / "wrong", thickness=-1.0)
     assert not (tmp_path / "wrong").exists()
