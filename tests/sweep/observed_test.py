@@ -30,7 +30,7 @@ MISTAKES = {
         ":3: travel_distance.unit: unknown unit (found 'miles'; allowed: m, km, cm). Correct it.",
     "travel_distance = { value = 4, unit = 3 }\n": ":1: travel_distance.unit: invalid (found '3'; allowed: a text).",
     f"{DISTANCE}uncertainty = -1\n": ":4: travel_distance.uncertainty: invalid (found '-1'; allowed: finite numbers of",
-    "[event]\nname = 'A'\nkind = 'snow'\n": ":3: event.kind: invalid (found 'snow'; allowed: rock, rock and ice).",
+    "[event]\nname = 'A'\nkind = 'snow'\n": ":3: event.kind: invalid (found 'snow'; allowed: rock).",
     POINT.replace("[[", "[").replace("]]", "]"): ":1: thickness: not an array of tables (allowed: [[thickness]]).",
     f"{POINT}{POINT}": ":8: thickness.name: two points have the name 'A'. Correct it.",
     f"{POINT}\n{POINT.replace('x = 1', 'x = nan')}": ":10: thickness.x: invalid (found 'nan'; allowed: finite numbers)",

@@ -13,13 +13,14 @@ from probability_test import CELL, write
 from thawslide.figures.force_record import Comparison, Curves
 from thawslide.force_record import extreme_times
 from thawslide.number_text import area_text, number_text
-from thawslide.pages.events import published_events
+from thawslide.pages.events import KINDS, published_events
 from thawslide.report_page import make_report
-from thawslide.scores.baseline import baseline_values, similar_events
+from thawslide.scores.baseline import VOLUME_FACTOR, baseline_values, comparable_kinds, similar_events
 from thawslide.scores.command import main
 from thawslide.scores.ensemble import percentile
 from thawslide.scores.force import best_alignment, correlation
 from thawslide.scores.output import BEGIN, END, stored_section
+from thawslide.scores.quantities import TABLES
 from thawslide.scores.renewal import renew_score
 from thawslide.sweeps.command import main as sweep
 
@@ -123,6 +124,14 @@ def test_the_event_itself_and_volumes_without_five_events_have_no_baseline() -> 
     assert "Frank 1903" not in {each.name for each in similar_events(36e6, "", "frank 1903")}
     assert similar_events(1e12, "") == [] and baseline_values("h_over_l", [], 100.0) is None
     assert baseline_values("duration", similar_events(2e6, ""), 100.0) is None
+
+
+def test_each_offered_kind_has_a_volume_with_enough_events() -> None:
+    """Volumes are tried at the ends of the ranges of similar volume, where their events change."""
+    ends = [event.volume * factor for event in published_events() for factor in (1 / VOLUME_FACTOR, VOLUME_FACTOR)]
+    compared = {kind for kind in KINDS if any(similar_events(volume, kind) for volume in ends)}
+    assert set(comparable_kinds()) == compared == {"rock"}
+    assert TABLES["event"]["kind"] == comparable_kinds()
 
 
 def outline_of(folder: Path, west: float, east: float, south: float, north: float) -> None:

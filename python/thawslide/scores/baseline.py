@@ -5,11 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from thawslide.arrays import Numbers
-from thawslide.pages.events import Event, published_events
+from thawslide.pages.events import KINDS, Event, published_events
 
 VOLUME_FACTOR = 2.5  # largest ratio of two similar volumes
 LEAST_EVENTS = 5
 WITH_EVENTS = ("travel_distance", "h_over_l")  # quantities
+
+
+def comparable_kinds() -> tuple[str, ...]:
+    """Return the kinds that have enough events of similar volume for a comparison."""
+
+    def is_comparable(kind: str) -> bool:
+        volumes = sorted(event.volume for event in published_events() if event.kind == kind)
+        pairs = zip(volumes, volumes[LEAST_EVENTS - 1 :], strict=False)
+        return any(largest / smallest <= VOLUME_FACTOR**2 for smallest, largest in pairs)
+
+    return tuple(filter(is_comparable, KINDS))
 
 
 def similar_events(volume: float, kind: str, but: str = "") -> list[Event]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from thawslide.scores.baseline import comparable_kinds
 from thawslide.units import AREAS, FORCES, LENGTHS, RATIOS, SPEEDS, TIMES, VOLUMES, Units
 
 
@@ -53,7 +54,7 @@ FORCE_TIMES = {
 # Tables of observed.toml, and the type or the allowed texts of each key. Numbers are at least 0, except coordinates.
 _VALUE = {"value": float, "unit": str, "uncertainty": float, "source": str}
 TABLES: dict[str, dict[str, type | tuple[str, ...]]] = {
-    "event": {"name": str, "source": str, "kind": ("rock", "rock and ice")},
+    "event": {"name": str, "source": str, "kind": comparable_kinds()},
     **{name: dict(_VALUE) for name in QUANTITIES},
     "thickness": {"name": str, "x": float, "y": float, "of": ("deposit", "maximum"), **_VALUE},
     "outline": {"file": str, "area": ("affected", "deposit"), "threshold": float, "source": str},
