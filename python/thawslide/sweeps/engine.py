@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import signal
+import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
+from multiprocessing import resource_tracker
 from typing import Any
 
 import dask
@@ -70,20 +73,45 @@ def connected(scheduler: str | None, workers: int) -> Iterator[Client]:
             with client:
                 yield client
             return
-        cluster = LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address="127.0.0.1:0",
-            silence_logs=logging.CRITICAL,
-        )
+        cluster = None
         try:
+            with _deferred_interrupt():
+                cluster = LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    processes=True,
+                    dashboard_address="127.0.0.1:0",
+                    silence_logs=logging.CRITICAL,
+                )
             with Client(cluster) as client:
                 yield client
         finally:
             # A worker that is being restarted can block this call; it ends with this process.
             with contextlib.suppress(TimeoutError):
-                cluster.close(timeout=_CLOSE_TIMEOUT)
+                if cluster is not None:
+                    cluster.close(timeout=_CLOSE_TIMEOUT)
+
+
+@contextlib.contextmanager
+def _deferred_interrupt() -> Iterator[None]:
+    """Raise KeyboardInterrupt at the end only. Threads and processes started within never receive Ctrl-C.
+
+    A terminal sends it to all processes. Workers would print tracebacks; the driver stops them instead.
+    """
+    if threading.current_thread() is not threading.main_thread():  # Python calls handlers in the main thread only
+        yield
+        return
+    resource_tracker.ensure_running()  # its start by the first worker would unblock the signal
+    received: list[int] = []
+    handler = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # inherited by processes, unlike a handler
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        signal.signal(signal.SIGINT, handler)
+    if received:
+        raise KeyboardInterrupt
 
 
 def perform_all(
