@@ -115,6 +115,13 @@ def test_a_column_weight_weighs_the_members(tmp_path: Path, capfd: pytest.Captur
     mass, length = np.array(weights[:23]), done["travel_distance_m"].to_numpy() / 1e3
     assert row["members_crps"] == pytest.approx(scoringrules.crps_ensemble(4.0, length, ens_w=mass, estimator="nrg"))
     assert row["members_percentile"] == pytest.approx(percentile(length, mass, 4.0))
+    assert capfd.readouterr().out.count("have no weight") == 1
+    done.loc[3, "travel_distance_m"] = np.nan
+    done.to_parquet(tmp_path / "sweep" / "members.parquet", index=False)
+    scored(tmp_path / "sweep", JOFFRE)
+    out = capfd.readouterr().out
+    assert "note: 1 of 23 members have no weight\n" in out and "travel distance L: 21 of 22 members have a value" in out
+    assert out.count("have no weight") == 1 and "duration: 22 of" not in out
     synthetic_sweep(tmp_path / "other" / "sweep", [-1.0, *weights[1:]])
     assert "weight: not weights (found -1 to 2; allowed:" in failure(tmp_path / "other" / "sweep", JOFFRE, capfd)
 

@@ -35,10 +35,13 @@ def compute_score(forecast: Forecast, observed: Observed) -> Score:
     """Compare a forecast with all observations; ReportError if it has nothing to compare."""
     score = Score(forecast, observed, notes=list(forecast.notes))
     events, height = _similar_events(score), _median(forecast, "drop_height")
+    has_weight = forecast.weights > 0.0
+    if not has_weight.all():
+        score.notes.append(f"{len(has_weight) - has_weight.sum()} of {len(has_weight)} members have no weight")
     for observation, values in _pairs(score):
-        known = np.isfinite(values) & (forecast.weights > 0.0)
-        if known.sum() < len(known):
-            score.notes.append(f"{observation.words}: {known.sum()} of {len(known)} members have a value and a weight")
+        known = np.isfinite(values) & has_weight
+        if known.sum() < has_weight.sum():
+            score.notes.append(f"{observation.words}: {known.sum()} of {has_weight.sum()} members have a value")
         if not known.any():
             continue
         members = compare(values[known], forecast.weights[known], observation.value, observation.uncertainty)
