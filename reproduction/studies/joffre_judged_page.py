@@ -33,7 +33,9 @@ PANELS = {
     "mean_velocity": ("mean_speed_m_s", "mean velocity (m/s)", 1.0),
     "duration": ("duration_s", "duration (s)", 1.0),
 }
-RUN_COLUMNS = ("travel_distance_m", "h_over_l", "mean_speed_m_s", "duration_s")
+# Columns of a run, with the sign of a limit if the front still advances at the end
+RUN_COLUMNS = {"travel_distance_m": "> ", "h_over_l": "< ", "mean_speed_m_s": "", "duration_s": "> "}
+END = 240.0  # s: of runs that do not come to rest
 
 
 def text(value: Any) -> str:
@@ -72,7 +74,9 @@ def score_table(rows: Rows) -> str:
 def run_table(rows: Rows) -> str:
     """Return the runs that differ in one cause."""
     lines = ["run | L (m) | H/L | mean velocity (m/s) | duration (s)"]
-    lines += [" | ".join([row["words"], *(text(row[name]) for name in RUN_COLUMNS)]) for row in rows]
+    for row in rows:
+        signs = RUN_COLUMNS if row["simulated_time_s"] >= END else dict.fromkeys(RUN_COLUMNS, "")
+        lines.append(" | ".join([row["words"], *(f"{sign}{text(row[name])}" for name, sign in signs.items())]))
     return markdown(lines)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from reproduction.studies.joffre_judged import front_speed, joined
-from reproduction.studies.joffre_judged_page import FOLDER, PAGE, page_text
+from reproduction.studies.joffre_judged_page import FOLDER, PAGE, page_text, run_table
 from reproduction.study import ROOT
 from thawslide.scores.forecast import Forecast
 
@@ -19,6 +19,12 @@ def test_page_has_the_committed_numbers() -> None:
     assert "@" not in text
     prose = [line for line in text.splitlines() if not line.startswith("|")]
     assert sum(len(line.split()) for line in prose) <= 700
+
+
+def test_runs_that_do_not_come_to_rest_are_limits() -> None:
+    row = {"travel_distance_m": 5e3, "h_over_l": 0.25, "mean_speed_m_s": 20.0, "duration_s": 237.0}
+    found = run_table([{**row, "words": words, "simulated_time_s": end} for words, end in (("a", 239.9), ("b", 240.0))])
+    assert found.splitlines()[2:] == ["| a | 5,000 | 0.25 | 20 | 237 |", "| b | > 5,000 | < 0.25 | 20 | > 237 |"]
 
 
 def test_joined_forecasts_are_equally_probable_and_keep_their_weights() -> None:

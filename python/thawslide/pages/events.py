@@ -125,7 +125,7 @@ def _run_trace(name: str, mobility: Mobility, number: int) -> dict[str, Any]:
 
 
 _CAPTION = (
-    "H: drop height. L: travel distance. Published values are quoted from their sources, named at each point, and are "
-    "not checked again; volumes of ranges are their middle. Values of Mitchell et al. (2019) are rock avalanches in "
+    "H: drop height. L: travel distance. Published values are as quoted in abstracts and excerpts of the sources "
+    "named at each point; volumes of ranges are their middle. Values of Mitchell et al. (2019) are rock avalanches in "
     "Canada. An event far from its neighbours needs an explanation, for example ice, water, or a confined valley."
 )
