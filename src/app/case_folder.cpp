@@ -54,6 +54,30 @@ gis::Rectangle span_of_dem(const std::string& dem) {
 
 }  // namespace
 
+namespace {
+
+// The predicate of a sentence about the block.
+std::string reach_text(const fs::path& folder, const config::ProposedBase& base, const char* longer) {
+  constexpr double leaves = 1.0, moves = 0.01;  // m; fraction of the peak speed
+  const run::BlockReach reach = run::block_reach(config::read_case(folder));
+  const std::string at = fmt::format("{} m, at {} m/s", with_commas(reach.distance, 3), rounded_text(reach.speed, 2));
+  if (reach.end == run::PathEnd::terrain) {
+    return fmt::format("reaches the end of the known terrain after {}. {}", at, longer);
+  }
+  if (reach.end == run::PathEnd::depression) {
+    return fmt::format("reaches a closed depression of the terrain after {}. Set maps.path to follow it further", at);
+  }
+  if (reach.displacement < leaves) {
+    return fmt::format("does not leave; it needs a basal.friction_angle below {:.1f} degrees", base.friction);
+  }
+  if (reach.speed > moves * reach.peak_speed) {
+    return fmt::format("still moves at time.end, after {}", at);
+  }
+  return fmt::format("travels {} m, H/L {:.2f}", with_commas(reach.distance, 3), reach.ratio);
+}
+
+}  // namespace
+
 std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
   try {
     return run::propose_base(config::read_case(folder));
@@ -62,7 +86,7 @@ std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
   }
 }
 
-std::string base_text(const config::ProposedBase& base) {
+std::string base_text(const config::ProposedBase& base, const fs::path& folder, const char* longer) {
   std::string text =
       fmt::format("base:        a band of {:.1f} m, which a rigid block without pore pressure heats to {:.0f} C",
                   base.thickness, base.temperature);
@@ -71,7 +95,15 @@ std::string base_text(const config::ProposedBase& base) {
         fmt::format("\n             safety factor {:.2g} at the start: {} Pa of cohesion would have held the release",
                     base.safety_factor, rounded_text(base.missing_cohesion, 2));
   }
-  return text + "\n";
+  text += fmt::format("\nblock:       a rigid block with pore pressure {}\n", reach_text(folder, base, longer));
+  if (base.temperature > config::ProposedBase::limit) {
+    text += fmt::format(
+        "warning: band.thickness: friction heats the base of the rigid block above {:g} C, which is not credible "
+        "(found {:.0f} C with {:g} m). Set a lower basal.friction_angle or a larger band.thickness; "
+        "docs/choosing-the-base.md\n",
+        config::ProposedBase::limit, base.temperature, base.thickness);
+  }
+  return text;
 }
 
 config::Case trial_case(const std::string& folder, const MapOptions& maps) {

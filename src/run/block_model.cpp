@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "config/notices.hpp"
 #include "config/profile_csv.hpp"
+#include "physics/basal/shared_parameters.hpp"
 #include "run/map_files.hpp"
 #include "run/warnings.hpp"
 #include "sim/block/block.hpp"
@@ -34,8 +36,18 @@ void report_valley_factor(const std::vector<sim::HistoryRow>& rows, Observer& ob
   }
 }
 
+struct Motion {
+  std::vector<sim::HistoryRow> rows;
+  PathEnd end = PathEnd::none;
+};
+
+class SilentObserver : public Observer {
+  void text(const std::string& /*line*/) override {}
+  void error(const std::string& /*line*/) override {}
+};
+
 // Runs a 3D case as a section along its path.
-std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings, Observer& observer) {
+Motion block_along_path(const config::Case& parameters, Warnings& warnings, Observer& observer) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   std::vector<sim::HistoryRow> rows =
       sim::run_block(section.parameters, section.site, section.valley_factor, section.start);
@@ -64,12 +76,14 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Wa
                                        : fmt::format(". The front reaches it at {} s, and the block stops there. Set "
                                                      "maps.path to a longer line to follow the slide further",
                                                      rounded_text(value_of(*beyond, "time_s"), 3)));
+    const PathEnd reached = beyond == rows.end() ? PathEnd::none : PathEnd::depression;
     rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
     report_valley_factor(rows, observer);
-    return rows;
+    return {std::move(rows), reached};
   }
   const double end = section.site.profile.distance.back();
   const auto beyond = first_beyond(end);
+  const PathEnd reached = beyond == rows.end() ? PathEnd::none : PathEnd::terrain;
   if (beyond != rows.end()) {
     observer.line(
         "warning: maps.path: the front leaves the DEM after {} m, at {} s, and the table ends there. Use {} to follow "
@@ -80,14 +94,14 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Wa
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
   report_valley_factor(rows, observer);
-  return rows;
+  return {std::move(rows), reached};
 }
 
 // On a profile without extrapolation, the results end with it.
-std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Observer& observer) {
+Motion block_on_profile(const config::Case& parameters, Observer& observer) {
   std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
   if (parameters.terrain.kind != config::TerrainKind::profile || parameters.terrain.extend) {
-    return rows;
+    return {std::move(rows)};
   }
   const config::ProfileTable profile = config::read_profile(parameters.terrain.file);
   const double first = profile.distance.front(), last = profile.distance.back();
@@ -95,6 +109,7 @@ std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Ob
     const double front = value_of(row, "front_position_m");
     return front < first || front > last;
   });
+  const PathEnd reached = beyond == rows.end() ? PathEnd::none : PathEnd::terrain;
   if (beyond != rows.end()) {
     observer.line(
         "warning: the profile is known from {} to {} m; the front leaves it at {} s, and the rows end before. Give a "
@@ -102,7 +117,14 @@ std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Ob
         coordinate_text(first), coordinate_text(last), rounded_text(value_of(*beyond, "time_s"), 3));
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
-  return rows;
+  return {std::move(rows), reached};
+}
+
+Motion block_motion(const config::Case& parameters, Observer& observer) {
+  Warnings warnings(&observer);
+  warnings.add(config::notices(parameters));
+  return parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters, warnings, observer)
+                                                             : block_on_profile(parameters, observer);
 }
 
 // Base whose band is the thinnest that config::ProposedBase allows. run(): rows of the block of `parameters`. end: of
@@ -125,8 +147,10 @@ config::ProposedBase thinnest_band(config::Case& parameters, double end, const R
     }
     const double driving = std::abs(value_of(rows.front(), "driving_traction_Pa"));
     const double strength = value_of(rows.front(), "sliding_strength_Pa");
-    const double friction = std::atan(driving / value_of(rows.front(), "normal_pressure_Pa"));
-    base = {thickness, warmest, friction * 180.0 / std::numbers::pi, strength / driving,
+    // Without cohesion, the strength is proportional to the tangent of the friction angle.
+    constexpr double degree = std::numbers::pi / 180.0;
+    const double given = std::tan(parameters.basal.numbers(physics::basal::friction_angle) * degree);
+    base = {thickness, warmest, std::atan(given * driving / strength) / degree, strength / driving,
             std::max(0.0, driving - strength)};
   }
   return base;
@@ -144,10 +168,20 @@ double value_of(const sim::HistoryRow& row, const std::string& name) {
 }
 
 std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer) {
-  Warnings warnings(&observer);
-  warnings.add(config::notices(parameters));
-  return parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters, warnings, observer)
-                                                             : block_on_profile(parameters, observer);
+  return block_motion(parameters, observer).rows;
+}
+
+BlockReach block_reach(const config::Case& parameters) {
+  SilentObserver silent;
+  const auto [rows, end] = block_motion(parameters, silent);
+  const auto last = [&rows = rows](const char* name) { return value_of(rows.back(), name); };
+  BlockReach reach{end, last("displacement_m"), last("travel_distance_m")};
+  reach.ratio = last("drop_height_m") / reach.distance;
+  reach.speed = last("velocity_m_s");
+  for (const sim::HistoryRow& row : rows) {
+    reach.peak_speed = std::max(reach.peak_speed, value_of(row, "velocity_m_s"));
+  }
+  return reach;
 }
 
 config::ProposedBase propose_base(config::Case parameters) {
@@ -156,10 +190,7 @@ config::ProposedBase propose_base(config::Case parameters) {
     const double end = config::read_profile(parameters.terrain.file).distance.back();
     return thinnest_band(parameters, end, [&] { return sim::run_block(parameters); });
   }
-  class Silent : public Observer {
-    void text(const std::string& /*line*/) override {}
-    void error(const std::string& /*line*/) override {}
-  } silent;
+  SilentObserver silent;
   Warnings warnings(&silent);
   sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   const double end = section.pit ? section.pit->along : section.site.profile.distance.back();

@@ -35,11 +35,11 @@ int repeat(const Step& step, const Clock& clock) {
   return std::max(steps, 1);
 }
 
-// Performs a step unless the run has ended.
+// Performs a step unless the run has ended, or all particles have left.
 template <int Dim>
 bool advance(sim::Simulation<Dim>& simulation) {
   const double end = simulation.parameters().time.end;
-  if (simulation.time() >= end) {
+  if (simulation.time() >= end || !simulation.left_text().empty()) {
     return false;
   }
   simulation.step(simulation.next_step(end));
