@@ -132,12 +132,12 @@ std::vector<Parameter<Band>> band_parameters() {
                                     .unit = "m",
                                     .range = above(0),
                                     .text = "grain size d for band.growth \"inertial\"",
-                                    .source = "Jop et al. (2006), not read"})
+                                    .source = "Jop et al. (2006), as quoted by others"})
           .only_if(when_inertial, "growth", grows(BandGrowth::inertial)),
       parameter(&Band::inertial_number, {.key = "inertial_number",
                                          .range = above(0),
                                          .text = "maximum inertial number I of the band for band.growth \"inertial\"",
-                                         .source = "Jop et al. (2006), not read"})
+                                         .source = "Jop et al. (2006), as quoted by others"})
           .only_if(when_inertial, "growth", grows(BandGrowth::inertial)),
       parameter(&Band::growth_per_slip, {.key = "growth_per_slip",
                                          .range = above(0),

@@ -31,11 +31,11 @@ Range inside(double low, double high);
 struct Usual {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  const char* where = "";  // "on a glacier"
+  const char* where = "";  // "for ice bonds"
 
   [[nodiscard]] bool is_specified() const;
   [[nodiscard]] bool contains(double value) const { return value >= low && value <= high; }
-  // Text such as "0.01 to 2 (assumption)", "0.05 to 0.15 on a glacier (assumption)"; empty if no range is specified
+  // Text such as "0.01 to 2 (assumption)", "1 to 100 for ice bonds (assumption)"; empty if no range is specified
   [[nodiscard]] std::string text(const std::string& unit = "") const;
 };
 

@@ -49,7 +49,7 @@ def test_the_cases_of_the_project_have_only_the_known_warnings(thawslide: Progra
         expected.append("grid.steepest: the terrain is steeper than 65 degrees. Columns of nodes lowered: 450, ")
     if case.stem == "two-parts":  # fitted to a force record
         expected.append("material.rock_ice.residual_friction_angle is 35.3 degrees, outside the usual 20 to 35")
-        expected.append("substrate.glacier.friction_coefficient is 0.034, outside the usual 0.05 to 0.15 on a glacier")
+        expected.append("substrate.glacier.friction_coefficient is 0.034, outside the usual 0.05 to 0.3 on glacier")
     assert len(notes) == len(expected), notes
     assert all(words in note for words, note in zip(expected, notes, strict=True)), notes
 

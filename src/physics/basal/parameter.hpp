@@ -26,7 +26,7 @@ struct Parameter {
   bool low_open = false, high_open = false;
   double usual_low = -std::numeric_limits<double>::infinity();  // typical range with band columns, an assumption
   double usual_high = std::numeric_limits<double>::infinity();
-  const char* usual_where = "";  // "on a glacier"
+  const char* usual_where = "";  // "for ice bonds"
   const char* usual_law = "";    // keyword of the only law to which the typical range applies; empty: all
   const char* text = "";  // "{laws}" in it is replaced by the law "x", or the laws "x" and "y", that use the number
   const char* source = "";

@@ -14,14 +14,14 @@ inline constexpr Parameter friction_angle{.key = "friction_angle",
                                           .text = "basal friction angle phi_f",
                                           .source = "Lei et al., Eq. 25, Tables 2, 3"};
 
-// The typical range is an assumption for rock avalanches on glaciers.
+// The typical range is an assumption. It contains the ranges that `thawslide new` proposes.
 inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
                                                 .is_needed = true,
                                                 .only_with_its_laws = true,
                                                 .low = 0.0,
                                                 .usual_low = 0.05,
-                                                .usual_high = 0.15,
-                                                .usual_where = "on a glacier",
+                                                .usual_high = 0.3,
+                                                .usual_where = "on glacier, snow or valley floor",
                                                 .usual_law = "coefficient",
                                                 .text = "friction coefficient mu of {laws}"};
 
