@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from kills_test import workers_of
 
-from thawslide.sweeps.folder import FINISHED, SweepFolder
+from thawslide.sweeps.folder import SweepFolder
 
 MEMBERS = 4
 SLOW = '[case]\nbased_on = "case.toml"\n[time]\nend = 3.0\nstep = 0.0005\n'

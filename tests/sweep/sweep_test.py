@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -169,3 +170,19 @@ def test_a_file_describes_a_sweep(slope: Path, tmp_path: Path) -> None:
     assert table["end"].notna().all()
     file.write_text('[sweep]\ncases = ["slope"]\nsmaple = "lhs:4"\n')
     assert main([str(file)]) == 2
+
+
+@pytest.mark.parametrize("block", [False, True])
+def test_members_depart_at_their_release_times(slope: Path, tmp_path: Path, block: bool) -> None:
+    """Each member moves as the first one, which is released at the start, but later."""
+    vary = {"body.block.release_time": [0.0, 0.1, 0.3]}
+    table = thawslide.sweep(slope, tmp_path / "sweep", vary=vary, block=block, workers=2, progress=False)
+    assert list(table["status"]) == ["done"] * 3
+    series = [np.load(SweepFolder(tmp_path / "sweep").series_file(number)) for number in table["member"]]
+    first = series[0]
+    for release, found in zip(table["body.block.release_time"], series, strict=True):
+        moves = found["time_s"] > release + 1e-6
+        assert not found["speed_m_s"][~moves].any() and (found["speed_m_s"][moves] > 0.0).all()
+        expected = np.interp(found["time_s"][moves] - release, first["time_s"], first["speed_m_s"])
+        assert found["speed_m_s"][moves] == pytest.approx(expected, rel=1e-3)
+    assert series[2]["speed_m_s"][-1] < 0.5 * first["speed_m_s"][-1]

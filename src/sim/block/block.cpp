@@ -14,6 +14,7 @@
 #include "sim/direction.hpp"
 #include "sim/setup/bodies.hpp"
 #include "sim/setup/initial_state.hpp"
+#include "sim/setup/release_stages.hpp"
 #include "sim/solver/time_step.hpp"
 
 namespace thawslide::sim {
@@ -163,6 +164,10 @@ class Block {
   }
 
   void step(double dt) {
+    if (is_held(model_.release_times, time_, 0)) {
+      time_ += dt;
+      return;
+    }
     const Forces forces = evaluate_base();
     const double trial = slices_.mass * velocity_ + dt * forces.along;
     const auto impulse = physics::contact_impulse(dt * forces.normal, std::abs(trial), base_area_, dt, strength_);

@@ -293,6 +293,9 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   flat.probes.clear();
   config::Body& body = flat.bodies.begin()->second;
   body.shape = config::BodyShape::surface;
+  if (!body.release_time.attribute.empty()) {
+    body.release_time = {release.release_time, {}};
+  }
   make_plain(body.temperature, "temperature", release);
   make_plain(body.saturation, "saturation", release);
   make_plain(body.porosity, "porosity", release);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -48,6 +49,22 @@ TEST(Block, UsesTheHeatMassesOfTheCase) {
   };
   EXPECT_NEAR(gain_over_friction_heat("initial"), 1.0, 1e-9);
   EXPECT_GT(std::abs(gain_over_friction_heat("current") - 1.0), 1e-5);
+}
+
+// A held block has the same motion, later by its release time.
+TEST(Block, RestsUntilItsReleaseTime) {
+  const Sets fixed = "time.step=0.002; time.stepping=fixed; time.end=3";
+  const auto at_once = run_block(paper_case(slab + frozen + fixed));
+  const auto held = run_block(paper_case(slab + frozen + fixed + Sets("body.slab.release_time=1")));
+  ASSERT_EQ(held.size(), at_once.size());
+  constexpr std::size_t rows_held = 2;  // of 0.5 s
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    EXPECT_NEAR(held[k][0].second, at_once[k][0].second, 1e-9);
+    for (std::size_t column = 1; column < held[k].size(); ++column) {
+      EXPECT_EQ(held[k][column].second, at_once[k - std::min(k, rows_held)][column].second) << held[k][column].first;
+    }
+  }
+  EXPECT_GT(held.back()[1].second, 1.0) << "m/s";
 }
 
 TEST(Block, AcceptsOneBodyOfASectionOnly) {
