@@ -89,9 +89,10 @@ void expect_balanced(const Simulation<Dim>& simulation) {
   }
 }
 
-// Each block slides by a t^2/2 from its own release. The held one does not move at all.
+// Each block slides by a t^2/2 from its own release. The held one does not move at all. energy: largest residual of the
+// mechanical energy over the friction work.
 template <int Dim>
-void expect_motion_of_sliding_blocks(const Sets& sets) {
+void expect_motion_of_sliding_blocks(const Sets& sets, double energy = 1e-3) {
   constexpr double end = 1.5;
   const config::Case parameters = two_blocks<Dim>(10.0, sets);
   const Simulation<Dim> at_start(parameters);
@@ -115,12 +116,16 @@ void expect_motion_of_sliding_blocks(const Sets& sets) {
     EXPECT_NEAR(motion.speed, acceleration() * since, 1e-3 * motion.speed) << body;
   }
   expect_balanced(simulation);
+  const HistoryRow row = history_row(simulation);
+  EXPECT_NEAR(value_of(row, "mechanical_residual_J") / value_of(row, "friction_work_J"), 0.0, energy);
 }
 
 TEST(ReleaseStages, AreFollowedByTheMotionOfASlidingBlockInThePlane) { expect_motion_of_sliding_blocks<2>(first_held); }
 TEST(ReleaseStages, AreFollowedByTheMotionOfASlidingBlockInSpace) { expect_motion_of_sliding_blocks<3>(first_held); }
 TEST(ReleaseStages, BeginAtTheirTimeWithAdaptiveSteps) {
-  expect_motion_of_sliding_blocks<2>(first_held + Sets("time.step=; time.stepping=adaptive; mechanics.transfer=apic"));
+  // Measured: 0.005, with APIC and with steps longer than the fixed ones.
+  expect_motion_of_sliding_blocks<2>(first_held + Sets("time.step=; time.stepping=adaptive; mechanics.transfer=apic"),
+                                     0.01);
 }
 
 // A block that is released later has bitwise the same motion as one that is released at the start, but for its place in
@@ -238,17 +243,22 @@ TEST(ReleaseStages, HaveTheFrictionOfTheirContact) {
   EXPECT_NEAR(speed({}), 0.0, 0.2) << "it sticks";
 }
 
+template <int Dim>
+void expect_the_same_bits(const Sets& sets) {
+  const config::Case parameters =
+      two_blocks<Dim>(1.0, Sets("body.block.release_time=0.2; time.step=; time.stepping=adaptive") + sets);
+  const auto make = [&] { return std::make_unique<Simulation<Dim>>(parameters); };
+  const auto visit = [](const Simulation<Dim>& simulation, int k) {
+    EXPECT_TRUE(k > 10 || simulation.is_held(0));
+    EXPECT_TRUE(k < 60 || !simulation.is_held(0));
+  };
+  expect_reproducible_run<Dim>(make, 120, {{1, 0, 10}, {1, 0, 40}, {2, 7, 60}, {2, 3, 100}}, visit);
+}
+
 TEST(ReleaseStages, HaveTheSameBitsAfterARestartAndOnAllThreads) {
-  for (const Sets& sets : {Sets(), frictional}) {
-    const config::Case parameters =
-        two_blocks<2>(1.0, Sets("body.block.release_time=0.2; time.step=; time.stepping=adaptive") + sets);
-    const auto make = [&] { return std::make_unique<Simulation<2>>(parameters); };
-    const auto visit = [](const Simulation<2>& simulation, int k) {
-      EXPECT_TRUE(k > 10 || simulation.is_held(0));
-      EXPECT_TRUE(k < 60 || !simulation.is_held(0));
-    };
-    expect_reproducible_run<2>(make, 120, {{1, 0, 10}, {1, 0, 40}, {2, 7, 60}, {2, 3, 100}}, visit);
-  }
+  expect_the_same_bits<2>({});
+  expect_the_same_bits<2>(frictional);
+  expect_the_same_bits<3>({});
 }
 
 // With every mechanism. A held body has no friction heat.
@@ -276,6 +286,13 @@ TEST(ReleaseStages, CloseTheBudgetsOfBandColumns) {
                 "body.upper.material=rock; body.upper.min=[-50,0]; body.upper.max=[0,40]; "
                 "body.upper.temperature=-1; body.upper.porosity=0.375; body.upper.release_time=0.1"),
       1, 20);
+}
+TEST(ReleaseStages, CloseTheBudgetsInSpace) {
+  expect_balance_of_heat<3>(base_case("box",
+                                      "body.lower.material=rock; body.lower.min=[6,3,0]; body.lower.max=[10,7,3]; "
+                                      "body.lower.temperature=-0.5; body.lower.porosity=0.375; "
+                                      "body.box.release_time=0.04; band.model=scaled"),
+                            0, 20);
 }
 
 // Settling is common to all bodies; the stress that it leaves is kept until the release.
