@@ -208,8 +208,9 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
         config::cell_of(each.resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
     const double seconds = cost.processor * config::run_time_factor(proposal.cell, cell, 3);
     const bool is_timed = proposal.particles >= fewest_timed_particles;
-    others += fmt::format("             --resolution {}: cells of {:g} m{}; {}\n", each.name, cell,
-                          is_timed ? fmt::format(", about {} of processor time", duration_text(seconds)) : "", each.errors);
+    others +=
+        fmt::format("             --resolution {}: cells of {:g} m{}; {}\n", each.name, cell,
+                    is_timed ? fmt::format(", about {} of processor time", duration_text(seconds)) : "", each.errors);
   }
   return fmt::format(
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {}\n{}",
