@@ -31,7 +31,7 @@ class ManufacturedVibration {
     model_.gravity.setZero();
     model_.sizes = {0.25};
     elastic_ = physics::Elastic::from_young_poisson(youngs_modulus, poisson_ratio);
-    model_.materials = {{physics::LinearElastic{}, elastic_, false, 0.0, 0.0}};
+    model_.materials = {{{elastic_, false, 0.0, 0.0}, physics::LinearElastic{}}};
     model_.sides.lower.fill(0);
     model_.sides.upper.fill(cells);
     constraints_.extent = Plane(1.0, 1.0);
