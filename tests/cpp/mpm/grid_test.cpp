@@ -322,7 +322,7 @@ TEST(BlockConstraints, AgreeWithThoseOfTheirNodes) {
       blocks_without += on_block.any() ? 0 : 1;
       for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<2>::nodes); ++k) {
         Vector<double, 2> free(3.0, 5.0), held = free;
-        const bool in_frame = constraints.apply(node_position(grid, b, k), 2.0, time, free);
+        const bool in_frame = constraints.motion().apply(node_position(grid, b, k), 2.0, time, free);
         EXPECT_EQ(on_block.apply(k, 2.0, held), in_frame);
         EXPECT_EQ(held, free);
         nodes_with += held != Vector<double, 2>(3.0, 5.0) ? 1 : 0;
