@@ -81,7 +81,7 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     chosen = resolution or "quick"
     assert cell_of(folder) == CELLS[chosen]
     found = re.search(
-        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; [0-9a-z %.()]+\n"
+        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; [0-9a-z %.,:()]+\n"
         rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} of processor time"
         r"( \(this machine is busy: .*\))?$",
         printed,
@@ -91,7 +91,7 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
     checked = thawslide.json("check", folder)
     assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
     assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
-    pattern = rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [0-9a-z %.()]+$"
+    pattern = rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION} of processor time; [0-9a-z %.,:()]+$"
     others = {name: float(cell) for name, cell in re.findall(pattern, printed, re.MULTILINE)}
     assert others == {name: cell for name, cell in CELLS.items() if name != chosen}
     assert "warning: " not in printed, "the text names the cells for maps"
@@ -113,7 +113,7 @@ def seconds_of(duration: str) -> float:
 
 def test_the_times_of_other_resolutions_follow_from_their_cells(slope: Slope) -> None:
     """Cells half as large cost 16 times as much."""
-    found = dict(re.findall(r"--resolution (\w+): cells of \S+ m, about ([^;]+);", slope.new().stdout))
+    found = dict(re.findall(r"--resolution (\w+): cells of \S+ m, about ([^;]+) of processor time;", slope.new().stdout))
     assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.08)
 
 
