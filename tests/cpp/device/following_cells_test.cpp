@@ -116,7 +116,7 @@ void expect_the_same_splits(int steps) {
       simulation->step(0.0018);
     }
   }
-  EXPECT_GT(on_cpu.split_count(), 50);
+  EXPECT_GT(on_cpu.split_count(), 10);
   EXPECT_EQ(on_device.split_count(), on_cpu.split_count());
   EXPECT_EQ(on_device.budget().numerical, on_cpu.budget().numerical);
   expect_the_same_particles(on_device, on_cpu);

@@ -40,7 +40,7 @@ TEST(MemoryNeed, SumsItsParts) {
     return memory_need<2>(case_from_text(two_bodies, {"mechanics.split_stretched=true", limit}), {},
                           bodies_at_start<2>(case_from_text(two_bodies), {}));
   };
-  EXPECT_EQ(of_split("mechanics.split_limit=8").total(), 60e6 + 4.0 * 600.0 * 1431.0);
+  EXPECT_EQ(of_split("mechanics.split_limit=8").total(), 60e6 + 6.0 * 600.0 * 1431.0);
   EXPECT_EQ(of_split("mechanics.split_limit=2").total(), 60e6 + 2.0 * 600.0 * 1431.0);
 
   const config::Case rich =
