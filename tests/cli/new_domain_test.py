@@ -113,7 +113,8 @@ def seconds_of(duration: str) -> float:
 
 def test_the_times_of_other_resolutions_follow_from_their_cells(slope: Slope) -> None:
     """Cells half as large cost 16 times as much."""
-    found = dict(re.findall(r"--resolution (\w+): cells of \S+ m, about ([^;]+) of processor time;", slope.new().stdout))
+    pattern = r"--resolution (\w+): cells of \S+ m, about ([^;]+) of processor time;"
+    found = dict(re.findall(pattern, slope.new().stdout))
     assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.08)
 
 
