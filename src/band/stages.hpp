@@ -18,6 +18,7 @@ namespace thawslide::band::stages {
 template <class Passes>
 using NodesOf = decltype(std::declval<Passes&>().node_access());
 
+// Averages at nodes (Eq. 21).
 template <int Dim, class Passes>
 void average_on_grid(Passes& passes, const BandParameters<Dim>& model) {
   passes.run(passes.linear(), AddAverages<Dim>{});
@@ -49,7 +50,8 @@ void rescale_band(Passes& passes, const BandParameters<Dim>& model, bool follows
   });
 }
 
-// first_step: prescribed temperatures are applied as a jump.
+// Heat content, temperature and saturation of particles (Eqs. 9, 18-20). first_step: prescribed temperatures are
+// applied as a jump.
 template <int Dim, class Passes>
 void conduct_heat(Passes& passes, const BandParameters<Dim>& model, const HydraulicConductivity& hydraulic, double dt,
                   bool first_step, HeatGain* gain) {
@@ -88,7 +90,7 @@ void conduct_heat(Passes& passes, const BandParameters<Dim>& model, const Hydrau
   });
 }
 
-// columns: of the sliding mass, by tile.
+// Pore pressure of particles (Eqs. 4, 8, 22, 23). columns: of the sliding mass, by tile.
 template <int Dim, class Passes, class Columns>
 void drain_pore_pressure(Passes& passes, const BandParameters<Dim>& model, const HydraulicConductivity& hydraulic,
                          const Columns& columns, double dt, WaterLoss* loss) {

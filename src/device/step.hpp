@@ -1,5 +1,5 @@
 // Time step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure. The stages match those
-// of simulation.cpp on the CPU.
+// of sim/solver/cpu_solver.cpp on the CPU.
 #pragma once
 
 #include <cstdint>
@@ -158,7 +158,7 @@ class Step {
   }
 
  private:
-  // The stages below match those of simulation.cpp.
+  // The stages below match those of sim/solver/cpu_solver.cpp.
   void find_cells() {
     passes_.cells.update(passes_.particles.view(), passes_.particles.by_id(), passes_.particles.size());
     if (!passes_.cells.blocks_changed()) {

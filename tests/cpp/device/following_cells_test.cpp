@@ -101,7 +101,7 @@ TEST(DeviceFollowingCells, KeepTheBandColumnsAndTheBedOfTheCpu) {
   expect_the_same_base<2>(columns + loose_bed() + "bed.law=momentum", 110);
 }
 
-// Half of the particles are long enough to be split after ten steps.
+// Every second particle is stretched; those of the body with larger particles are split after ten steps.
 template <int Dim>
 void expect_the_same_splits(int steps) {
   const config::Case parameters = on_bumps<Dim>("mechanics.split_stretched=true; mechanics.transfer=apic");
