@@ -20,7 +20,7 @@ class BandStages {
         sums_(sums),
         sizes_(passes.backend, passes.model.half_sizes, passes.model.cell),
         columns_(passes.backend, passes.model.cell, passes.model.mapping.has_ground, sizes_.view(),
-                 {callbacks.slope_cosine, callbacks.normal_gravity, {}}) {
+                 {callbacks.slope_cosine, callbacks.normal_gravity, callbacks.width}) {
     hydraulic_.set(model().hydraulic_conductivity);
   }
 

@@ -12,6 +12,7 @@
 
 namespace thawslide::device {
 
+// In the same layer.
 template <int Dim>
 THAWSLIDE_HD std::uint64_t key_of_neighbour(std::uint64_t key, std::size_t direction) {
   using T = mpm::Tile<Dim>;
@@ -20,7 +21,7 @@ THAWSLIDE_HD std::uint64_t key_of_neighbour(std::uint64_t key, std::size_t direc
     tile[a] += static_cast<int>(direction % 3) - 1;
     direction /= 3;
   }
-  return T::key(tile);
+  return T::in_layer(T::key(tile), T::layer(key));
 }
 
 // Computes the key of each particle, by id. Sets any_changed if a key differs from the last one.
@@ -30,6 +31,7 @@ struct FindKey {
   const std::uint32_t* by_id;
   double inverse_cell;
   mpm::Mapping mapping;
+  const std::uint8_t* layer_of_body;  // null: all bodies share nodes
   std::uint64_t* keys;
   std::uint32_t* any_changed;
 
@@ -44,7 +46,9 @@ struct FindKey {
     }
     int local = 0;
     T::split(node, tile, local);
-    const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
+    const std::uint64_t layer =
+        layer_of_body != nullptr ? layer_of_body[static_cast<std::size_t>(particles.body(particle))] : 0;
+    const std::uint64_t key = (T::in_layer(T::key(tile), layer) << T::node_bits) | static_cast<std::uint64_t>(local);
     if (keys[k] != key) {
       keys[k] = key;
       *any_changed = 1;  // benign race: all threads write the same value

@@ -21,6 +21,8 @@ class Cells {
   Cells(Backend& backend, double cell, const mpm::Mapping& mapping)
       : backend_(backend), inverse_cell_(1.0 / cell), mapping_(mapping) {}
 
+  // Moves bodies to other layers of the grid, from the next update on.
+  void set_layers(const std::vector<std::uint8_t>& layer_of_body) { layer_of_body_.set(layer_of_body); }
   // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
   void update(const mpm::ParticleView<Dim>& particles, const std::uint32_t* by_id, std::size_t count) {
     blocks_changed_ = false;
@@ -29,7 +31,8 @@ class Cells {
       fill(keys_by_id_, no_key);
     }
     fill(mark_, std::uint32_t{0});
-    backend_.for_each(count, FindKey<Dim>{particles, by_id, inverse_cell_, mapping_, keys_by_id_.data(), mark_.data()});
+    backend_.for_each(count, FindKey<Dim>{particles, by_id, inverse_cell_, mapping_, layer_of_body_.data(),
+                                          keys_by_id_.data(), mark_.data()});
     if (mark_.get(0) == 0) {
       return;
     }
@@ -104,6 +107,7 @@ class Cells {
   Backend& backend_;
   double inverse_cell_;
   mpm::Mapping mapping_;
+  exec::Array<std::uint8_t, Backend> layer_of_body_{backend_};  // empty: all bodies share nodes
   exec::Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
   exec::Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};
   exec::Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};

@@ -7,6 +7,7 @@
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/records.hpp"
+#include "mpm/section_width.hpp"
 #include "terrain/contact_stage.hpp"
 
 namespace thawslide::device {
@@ -17,6 +18,9 @@ struct NodeViews {
   double *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
   const terrain::GroundAtNode<Dim>* known;  // null: no ground
 
+  [[nodiscard]] THAWSLIDE_HD static std::size_t node(std::size_t block, std::size_t in_block) {
+    return block * static_cast<std::size_t>(mpm::Tile<Dim>::nodes) + in_block;
+  }
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD static double* record(double* numbers, std::size_t node) {
     return numbers + node * mpm::record_size(mpm::components_of<Name, Dim>);
@@ -55,16 +59,21 @@ THAWSLIDE_HD Vector<double, Dim> position_of_node(const std::uint64_t* block_key
   return position;
 }
 
-// Prescribed motion at one node.
+// Prescribed motion at one node; as mpm::NodeConstraints.
 template <int Dim>
 struct WallsOfNode {
   const mpm::PrescribedMotion<Dim>& motion;
   Vector<double, Dim> position;
   double time;
+  bool holds;  // the node belongs to a held body
 
-  [[nodiscard]] THAWSLIDE_HD bool any() const { return motion.may_apply(position, position, time); }
-  [[nodiscard]] THAWSLIDE_HD bool is_held() const { return false; }
+  [[nodiscard]] THAWSLIDE_HD bool any() const { return holds || motion.may_apply(position, position, time); }
+  [[nodiscard]] THAWSLIDE_HD bool is_held() const { return holds; }
   THAWSLIDE_HD bool apply(double mass, Vector<double, Dim>& momentum) const {
+    if (holds) {
+      momentum.setZero();
+      return false;
+    }
     return motion.apply(position, mass, time, momentum);
   }
 };
@@ -81,15 +90,18 @@ struct NodeStageArgs {
   Vector<double, Dim> gravity;
   double cell, time, dt;
   terrain::ContactOptions options;
+  std::uint64_t first_held_layer;  // of the grid, and those after it
+  mpm::WidthView width;
 
   [[nodiscard]] THAWSLIDE_HD WallsOfNode<Dim> walls(std::size_t node) const {
-    return {motion, position_of_node<Dim>(tables.block_keys, node, cell), time};
+    const bool holds = mpm::Tile<Dim>::layer(tables.block_keys[node / block_nodes]) >= first_held_layer;
+    return {motion, position_of_node<Dim>(tables.block_keys, node, cell), time, holds};
   }
   [[nodiscard]] THAWSLIDE_HD const terrain::GroundAtNode<Dim>& ground(std::size_t node) const {
     return nodes.known[node];
   }
-  [[nodiscard]] THAWSLIDE_HD double space(std::size_t /*node*/) const {
-    return Dim == 2 ? cell * cell : cell * cell * cell;
+  [[nodiscard]] THAWSLIDE_HD double space(std::size_t node) const {
+    return (Dim == 2 ? width.at(position_of_node<Dim>(tables.block_keys, node, cell)[0]) : cell) * cell * cell;
   }
   THAWSLIDE_HD bool find_above(std::size_t node, int step, std::size_t& found) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);

@@ -17,6 +17,7 @@
 #include "device/reductions.hpp"
 #include "device/step_passes.hpp"
 #include "device/velocity_filter.hpp"
+#include "mpm/body_contact.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/stress_kernel.hpp"
@@ -24,9 +25,9 @@
 
 namespace thawslide::device {
 
-template <int Dim, class Law>
+template <int Dim, class Law, class Width>
 struct DeformMaterial {
-  using Kernel = mpm::Deform<Dim, Law>;
+  using Kernel = mpm::Deform<Dim, Law, Width>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Totals = typename Kernel::Totals;
@@ -37,6 +38,7 @@ struct DeformMaterial {
   physics::Phases phases;
   bool effective_stress;
   double dt;
+  Width width;
   std::int32_t number;  // of the material
   bool is_only_one;     // all particles have this material
 
@@ -44,10 +46,19 @@ struct DeformMaterial {
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Totals& totals) const {
     if (is_only_one || particles.material(at.particle[0]) == number) {
-      const Kernel deform{law, material, phases, effective_stress, dt};
+      const Kernel deform{law, material, phases, effective_stress, dt, width};
       deform(particles, at, seen, added, totals);
     }
   }
+};
+
+// The force of the walls of a section along x [N], from that on the ground.
+template <int Dim>
+struct SubtractForce {
+  const double* of_walls;
+  terrain::ContactWork<Dim>* contact;
+
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { contact->force[0] -= *of_walls; }
 };
 
 // cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
@@ -104,6 +115,7 @@ class Step {
   // Advances the solution by dt [s], from time [s].
   Sums step(double time, double dt) {
     passes_.backend.for_each(1, Fill<Sums>{sums_.data(), {}});
+    set_layers(time);
     find_cells();
     passes_.backend.end_stage("find_cells");
     if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
@@ -158,6 +170,18 @@ class Step {
   }
 
  private:
+  using ContactOfBodies = mpm::BodyContactArgs<NodeViews<Dim>, Dim>;
+
+  void set_layers(double time) {
+    if (passes_.model.layers_of_bodies) {
+      std::vector<std::uint8_t> layers = passes_.model.layers_of_bodies(time);
+      if (layers != layers_) {
+        passes_.cells.set_layers(layers);
+        layers_ = std::move(layers);
+      }
+    }
+  }
+
   // The stages below match those of sim/solver/cpu_solver.cpp.
   void find_cells() {
     passes_.cells.update(passes_.particles.view(), passes_.particles.by_id(), passes_.particles.size());
@@ -175,6 +199,9 @@ class Step {
            {&passes_.template of<mpm::Momentum>(), &passes_.template of<mpm::Contact>()}) {
         passes_.backend.for_each(records->size(), Fill<double>{records->data(), 0.0});
       }
+    }
+    if (passes_.model.between_bodies.any()) {
+      body_contact_.update_pairs(passes_.cells.block_keys(), passes_.model.between_bodies);
     }
     if (passes_.ground.exists()) {
       const std::vector<std::uint64_t> blocks = passes_.cells.block_keys();
@@ -199,9 +226,16 @@ class Step {
   }
 
   void add_momentum() {
-    passes_.run(passes_.momentum(),
-                mpm::AddMomentum<Dim>{passes_.model.motion.gravity, passes_.model.motion.effective_stress,
-                                      passes_.model.motion.viscous()});
+    const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
+    mpm::with_width<Dim>(passes_.width(), [&]<class Width>(const Width& width) {
+      using Kernel = mpm::AddMomentum<Dim, Width>;
+      const Kernel kernel{motion.gravity, motion.effective_stress, motion.viscous(), width};
+      if constexpr (Width::varies) {
+        passes_.total(passes_.momentum(), kernel, force_of_walls_.data());
+      } else {
+        passes_.run(passes_.momentum(), kernel);
+      }
+    });
     passes_.if_affine(
         [&](const auto& weights) { passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim>{}); });
     passes_.template sum<mpm::Momentum, void>(AllTiles{});
@@ -209,6 +243,9 @@ class Step {
 
   void resolve_contact(double time, double dt) {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
+    if (passes_.model.between_bodies.any()) {
+      body_contact_.add_forces(between_bodies(dt));
+    }
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = SeesCandidates<Dim>{passes_.cells.tables().tile_keys};
       passes_.run(passes_.momentum(sees),
@@ -243,6 +280,9 @@ class Step {
                                                passes_.model.base.heat_fraction, beds},
                      passes_.memory.template sums<terrain::ContactWork<Dim>>(partial_sum_count(blocks))),
                  &sums_.data()->contact);
+    if (passes_.model.width.varies()) {  // the walls are part of the ground
+      passes_.backend.for_each(1, SubtractForce<Dim>{force_of_walls_.data(), &sums_.data()->contact});
+    }
   }
 
   void move(double time, double dt) {
@@ -262,22 +302,41 @@ class Step {
     }
     passes_.keep(passes_.template solve<mpm::Velocity>(nullptr, MapBack<Dim>{passes_.nodes_in_step(time, dt)}),
                  &sums_.data()->mapped_back);
+    if (passes_.model.between_bodies.any()) {
+      const std::size_t count = body_contact_.work_count();
+      auto* works = passes_.memory.template sums<mpm::BodyContactWork>(partial_sum_count(count));
+      body_contact_.constrain_mapped_back(between_bodies(dt), works);
+      passes_.keep(add_up(passes_.backend, works, count), &sums_.data()->between_bodies);
+    }
+  }
+  [[nodiscard]] ContactOfBodies between_bodies(double dt) {
+    return {passes_.cells.tables(),
+            passes_.particles.view(),
+            passes_.body_sizes(),
+            passes_.model.mapping.has_ground,
+            passes_.model.cell,
+            passes_.model.contact.mass_damping,
+            dt,
+            passes_.model.motion.gravity,
+            passes_.views()};
   }
 
   void update_stress(double dt) {
     const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
-    for (std::int32_t number = 0; const mpm::MaterialModel& material : motion.materials) {
-      std::visit(
-          [&]<class Law>(const Law& law) {
-            using Kernel = DeformMaterial<Dim, Law>;
-            const auto* all =
-                passes_.run(passes_.momentum(), Kernel{law, material, motion.phases, motion.effective_stress, dt,
-                                                       number, motion.materials.size() == 1});
-            passes_.backend.for_each(1, Add<mpm::Deformed>{&all->template of<Kernel>(), &sums_.data()->deformed});
-          },
-          material.law);
-      ++number;
-    }
+    mpm::with_width<Dim>(passes_.width(), [&]<class Width>(const Width& width) {
+      for (std::int32_t number = 0; const mpm::MaterialModel& material : motion.materials) {
+        std::visit(
+            [&]<class Law>(const Law& law) {
+              using Kernel = DeformMaterial<Dim, Law, Width>;
+              const auto* all =
+                  passes_.run(passes_.momentum(), Kernel{law, material, motion.phases, motion.effective_stress, dt,
+                                                         width, number, motion.materials.size() == 1});
+              passes_.backend.for_each(1, Add<mpm::Deformed>{&all->template of<Kernel>(), &sums_.data()->deformed});
+            },
+            material.law);
+        ++number;
+      }
+    });
   }
 
   // Updates positions and evaluates the reductions that the CPU requested.
@@ -320,7 +379,10 @@ class Step {
   std::uint64_t* reduced(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
 
   Passes passes_;
+  mpm::BodyContact<Backend, Dim> body_contact_{passes_.backend};
+  std::vector<std::uint8_t> layers_;  // of the grid, by body
   exec::Array<Sums, Backend> sums_;
+  exec::Array<double, Backend> force_of_walls_{passes_.backend, 1};  // of a section, along x [N]
   BandStages<Backend, Shape, Dim> band_;
   Maps<Backend> maps_;
   BandColumns<Backend, Dim> band_columns_;

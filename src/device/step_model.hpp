@@ -8,11 +8,13 @@
 #include "band/columns.hpp"
 #include "band/parameters.hpp"
 #include "device/step_sums.hpp"
+#include "mpm/between_bodies.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/mapping.hpp"
 #include "mpm/parameters.hpp"
 #include "mpm/prescribed_motion.hpp"
 #include "mpm/records.hpp"
+#include "mpm/section_width.hpp"
 #include "mpm/tile.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/bed.hpp"
@@ -33,9 +35,12 @@ struct StepModel {
   std::function<bool(double time, double dt)> filters_in_step;
   mpm::DomainFaces<Dim> faces;
   std::vector<mpm::RigidFrame<Dim>> frames;
-  Vector<double, Dim> lower, upper;  // bounds of particle positions [m]
-  bool finds_extremes = false;       // StepSums::extremes is required
-  bool counts_escaped = false;       // StepSums::escapes is required
+  mpm::SectionWidth width;
+  mpm::BetweenBodies between_bodies;
+  std::function<std::vector<std::uint8_t>(double time)> layers_of_bodies;  // by body; empty: all share nodes
+  Vector<double, Dim> lower, upper;                                        // bounds of particle positions [m]
+  bool finds_extremes = false;                                             // StepSums::extremes is required
+  bool counts_escaped = false;                                             // StepSums::escapes is required
   terrain::BasalLaw base;
   terrain::ContactOptions contact;
   bool starts = true;  // the next step is the first one, from t = 0
@@ -74,6 +79,7 @@ struct HostCallbacks {
   std::function<std::vector<double>()> column_heights;
   // As in band/slide_columns.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPosition<Dim> slope_cosine, normal_gravity;
+  band::OfPosition<Dim> width;  // relative; empty if uniform
   HostColumns columns;
   terrain::Bed<Dim>* bed = nullptr;  // erodible, on the CPU; null if there is none
 };

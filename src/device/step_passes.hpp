@@ -92,6 +92,8 @@ class StepPasses {
         ground(used, query_ground),
         sizes_(used, known.half_sizes, 1.0) {
     frames_.set(known.frames);
+    places_.set(known.width.places());
+    relative_widths_.set(known.width.relative());
   }
   StepPasses(const StepPasses&) = delete;
   StepPasses& operator=(const StepPasses&) = delete;
@@ -106,6 +108,7 @@ class StepPasses {
   Marks<Backend, Dim> marks{backend};
 
   [[nodiscard]] double cell() const { return model.cell; }
+  [[nodiscard]] mpm::WidthView width() const { return {places_.data(), relative_widths_.data(), places_.size()}; }
   [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
   [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.motion.sides}; }
   // Calls work(weights) with the weights of APIC if the model uses it.
@@ -207,7 +210,9 @@ class StepPasses {
             model.cell,
             time,
             dt,
-            model.contact};
+            model.contact,
+            model.between_bodies.first_held_layer(),
+            width()};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).
@@ -232,6 +237,7 @@ class StepPasses {
 
   BodySizes<Backend> sizes_;
   exec::Array<mpm::RigidFrame<Dim>, Backend> frames_{backend};
+  exec::Array<double, Backend> places_{backend}, relative_widths_{backend};
 };
 
 }  // namespace thawslide::device

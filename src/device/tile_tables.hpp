@@ -1,4 +1,4 @@
-// Tables of tiles and blocks (mpm/sparse_grid.hpp) in device memory.
+// Places of nodes in patches and blocks.
 #pragma once
 
 #include <cstddef>
@@ -6,27 +6,12 @@
 
 #include "base/portability.hpp"
 #include "exec/key_lists.hpp"
-#include "mpm/tile.hpp"
+#include "mpm/tile_tables.hpp"
 
 namespace thawslide::device {
 
 using exec::absent;
-
-template <int Dim>
-struct TileTables {
-  std::size_t particles, tiles, blocks;
-  // By rank in canonical order: the particle, and its key, which combines the tile's key with the place of its nearest
-  // node in the tile.
-  const std::uint32_t* order;
-  const std::uint64_t* keys;
-  const std::uint64_t* tile_keys;   // ascending
-  const std::uint64_t* block_keys;  // ascending
-  // By tile and node of the tile: rank in canonical order of the first particle in that cell or after it. One extra
-  // entry at the end.
-  const std::uint32_t* first_of_cell;
-  // By 3^Dim neighbours, in order; absent if there is none.
-  const std::int32_t *blocks_about_tile, *tiles_about_block, *blocks_about_block;
-};
+using mpm::TileTables;
 
 // Location of a patch node: direction of its block from the tile, and place within the block.
 template <int Dim>

@@ -23,6 +23,9 @@ struct BetweenBodies {
   [[nodiscard]] bool any() const { return all_layers() > 1; }
   [[nodiscard]] std::size_t all_layers() const { return has_held ? 2 * layers : layers; }
   [[nodiscard]] bool is_held(std::size_t layer) const { return layer >= layers; }
+  [[nodiscard]] std::uint64_t first_held_layer() const {
+    return has_held ? layers : std::numeric_limits<std::uint64_t>::max();
+  }
   [[nodiscard]] double friction_between(std::size_t layer, std::size_t other) const {
     return friction[layer % layers * layers + other % layers];
   }

@@ -42,7 +42,7 @@ double momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, 
                         Nodes<Dim>& nodes) {
   double of_walls = 0;
   with_weights(model, [&](const auto& weights) {
-    with_width<Dim>(model.width, [&](const auto& width) {
+    with_width<Dim>(model.width.view(), [&](const auto& width) {
       using Width = std::decay_t<decltype(width)>;
       const AddMomentum<Dim, Width> add{model.gravity, model.effective_stress, model.viscous(), width};
       const auto sums = particle_pass(grid, weights, particles, nodes, every_tile, add);

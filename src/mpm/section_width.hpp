@@ -6,7 +6,6 @@
 //   force of the walls   -V sigma_zz b'/b along x       (with Eq. 12)
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,6 +15,43 @@
 
 namespace thawslide::mpm {
 
+// The width in the memory of an executor. For host and device.
+struct WidthView {
+  const double* place = nullptr;     // x from the origin of positions [m], strictly increasing
+  const double* relative = nullptr;  // width over the reference width
+  std::size_t count = 0;             // 0: uniform
+
+  [[nodiscard]] THAWSLIDE_HD bool varies() const { return count > 0; }
+  // Relative width: b over the reference width.
+  [[nodiscard]] THAWSLIDE_HD double at(double x) const {
+    const std::size_t k = after(x);
+    return k == 0 ? 1.0 : k == count ? relative[count - 1] : relative[k - 1] + slope(k) * (x - place[k - 1]);
+  }
+  // b'/b [1/m].
+  [[nodiscard]] THAWSLIDE_HD double widening(double x) const {
+    const std::size_t k = after(x);
+    return k == 0 || k == count ? 0.0 : slope(k) / at(x);
+  }
+
+ private:
+  // Index of the first place beyond x.
+  [[nodiscard]] THAWSLIDE_HD std::size_t after(double x) const {
+    std::size_t first = 0, last = count;
+    while (first < last) {
+      const std::size_t middle = first + (last - first) / 2;
+      if (place[middle] > x) {
+        last = middle;
+      } else {
+        first = middle + 1;
+      }
+    }
+    return first;
+  }
+  [[nodiscard]] THAWSLIDE_HD double slope(std::size_t k) const {
+    return (relative[k] - relative[k - 1]) / (place[k] - place[k - 1]);
+  }
+};
+
 class SectionWidth {
  public:
   SectionWidth() = default;  // uniform
@@ -23,54 +59,39 @@ class SectionWidth {
   // origin of positions [m].
   SectionWidth(const Table& table, double origin) {
     for (std::size_t k = 0; k < table.abscissa.size(); ++k) {
-      index_.push_back(table.abscissa[k] - origin);
+      places_.push_back(table.abscissa[k] - origin);
       relative_.push_back(table.value[k] / table.value.front());
     }
   }
 
-  [[nodiscard]] bool varies() const { return !index_.empty(); }
-
-  // Relative width: b over the reference width.
-  [[nodiscard]] double at(double x) const {
-    const std::size_t k = after(x);
-    return k == 0 ? 1.0 : k == index_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - index_[k - 1]);
-  }
-  // b'/b [1/m].
-  [[nodiscard]] double widening(double x) const {
-    const std::size_t k = after(x);
-    return k == 0 || k == index_.size() ? 0.0 : slope(k) / at(x);
-  }
+  [[nodiscard]] const std::vector<double>& places() const { return places_; }
+  [[nodiscard]] const std::vector<double>& relative() const { return relative_; }
+  [[nodiscard]] WidthView view() const { return {places_.data(), relative_.data(), places_.size()}; }
+  [[nodiscard]] bool varies() const { return view().varies(); }
+  [[nodiscard]] double at(double x) const { return view().at(x); }
 
  private:
-  // Index of the first place beyond x.
-  [[nodiscard]] std::size_t after(double x) const {
-    return static_cast<std::size_t>(std::upper_bound(index_.begin(), index_.end(), x) - index_.begin());
-  }
-  [[nodiscard]] double slope(std::size_t k) const {
-    return (relative_[k] - relative_[k - 1]) / (index_[k] - index_[k - 1]);
-  }
-
-  std::vector<double> index_, relative_;
+  std::vector<double> places_, relative_;
 };
 
 // Width for kernels; EvenWidth if uniform (mpm/kernel.hpp).
 struct UnevenWidth {
   static constexpr bool varies = true;
-  const SectionWidth& width;
+  WidthView width;
 
   template <class Value>
-  [[nodiscard]] Value at(const Value& x) const {
-    return map_lanes(x, [&](double one) { return width.at(one); });
+  [[nodiscard]] THAWSLIDE_HD Value at(const Value& x) const {
+    return map_lanes(x, [this](double one) { return width.at(one); });
   }
   template <class Value>
-  [[nodiscard]] Value widening(const Value& x) const {
-    return map_lanes(x, [&](double one) { return width.widening(one); });
+  [[nodiscard]] THAWSLIDE_HD Value widening(const Value& x) const {
+    return map_lanes(x, [this](double one) { return width.widening(one); });
   }
 };
 
 // Calls work(width) with the width for kernels; only 2D sections have one.
 template <int Dim, class Work>
-decltype(auto) with_width(const SectionWidth& width, const Work& work) {
+decltype(auto) with_width(const WidthView& width, const Work& work) {
   if constexpr (Dim == 2) {
     if (width.varies()) {
       return work(UnevenWidth{width});

@@ -11,9 +11,15 @@
 #include "base/key_index.hpp"
 #include "mpm/mapping.hpp"
 #include "mpm/particles.hpp"
-#include "mpm/tile.hpp"
+#include "mpm/tile_tables.hpp"
 
 namespace thawslide::mpm {
+
+// Memory of those tables for kernels that the grid itself does not have.
+struct TableMemory {
+  std::vector<std::uint64_t> keys, tile_keys;
+  std::vector<std::uint32_t> first_of_cell;
+};
 
 template <int Dim>
 class SparseGrid {
@@ -71,6 +77,9 @@ class SparseGrid {
   [[nodiscard]] const std::int32_t* blocks_about_block(std::size_t b) const {
     return &blocks_about_block_[b * stencil];
   }
+
+  // Tables for kernels, valid until the next change of the grid or of `memory`.
+  [[nodiscard]] TileTables<Dim> tables(TableMemory& memory) const;
 
   // Marks the blocks around marked tiles, which contain all nodes in reach of their particles.
   void mark_blocks_about(const std::vector<std::uint8_t>& tiles, std::vector<std::uint8_t>& blocks) const;

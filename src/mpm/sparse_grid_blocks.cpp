@@ -36,6 +36,37 @@ void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, 
 }  // namespace
 
 template <int Dim>
+TileTables<Dim> SparseGrid<Dim>::tables(TableMemory& memory) const {
+  constexpr auto nodes = static_cast<std::size_t>(T::nodes);
+  memory.keys.resize(order_.size());
+  memory.tile_keys.resize(tiles_.size());
+  memory.first_of_cell.resize(tiles_.size() * nodes + 1);
+  parallel_for(tiles_.size(), [&](std::size_t t) {
+    memory.tile_keys[t] = tiles_[t].key;
+    std::uint32_t rank = tiles_[t].first;
+    for (std::size_t cell = 0; cell < nodes; ++cell) {
+      memory.first_of_cell[t * nodes + cell] = rank;
+      const std::uint64_t key = (tiles_[t].key << T::node_bits) | cell;
+      for (; rank < tiles_[t].last && keys_[order_[rank]] == key; ++rank) {
+        memory.keys[rank] = key;
+      }
+    }
+  });
+  memory.first_of_cell.back() = static_cast<std::uint32_t>(order_.size());
+  return {order_.size(),
+          tiles_.size(),
+          blocks_.size(),
+          order_.data(),
+          memory.keys.data(),
+          memory.tile_keys.data(),
+          blocks_.data(),
+          memory.first_of_cell.data(),
+          blocks_about_tile_.data(),
+          tiles_about_block_.data(),
+          blocks_about_block_.data()};
+}
+
+template <int Dim>
 void SparseGrid<Dim>::list_blocks() {
   blocks_.clear();
   for (const OccupiedTile& tile : tiles_) {
@@ -72,9 +103,10 @@ void SparseGrid<Dim>::set_blocks(std::vector<std::uint64_t> keys) {
   blocks_changed_ = true;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                 \
-  template void SparseGrid<Dim>::list_blocks();    \
-  template void SparseGrid<Dim>::connect_blocks(); \
+#define THAWSLIDE_INSTANTIATE(Dim)                                             \
+  template TileTables<Dim> SparseGrid<Dim>::tables(TableMemory& memory) const; \
+  template void SparseGrid<Dim>::list_blocks();                                \
+  template void SparseGrid<Dim>::connect_blocks();                             \
   template void SparseGrid<Dim>::set_blocks(std::vector<std::uint64_t>);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

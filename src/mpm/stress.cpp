@@ -10,7 +10,7 @@ template <int Dim>
 Deformed update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
                                     const MotionModel<Dim>& model, double dt, Nodes<Dim>& nodes) {
   const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
-  return with_width<Dim>(model.width, [&](const auto& width) {
+  return with_width<Dim>(model.width.view(), [&](const auto& width) {
     const UpdateStress<Dim, std::decay_t<decltype(width)>> update{model.materials.data(), model.phases,
                                                                   model.effective_stress, dt, width};
     return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));

@@ -5,20 +5,6 @@
 
 namespace thawslide::run {
 
-namespace {
-
-template <int Dim>
-std::string step_on_gpu(sim::Simulation<Dim>& simulation) {
-  const device::Gpu gpu = device::find_gpu();
-  if (!gpu.is_usable) {
-    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.unavailable_reason));
-  }
-  simulation.use_device(gpu.name, device::on_gpu<Dim>());
-  return gpu.name;
-}
-
-}  // namespace
-
 GpuFacts detect_gpu() {
   const device::Gpu gpu = device::find_gpu();
   return {gpu.name, gpu.unavailable_reason, gpu.free, 0.0, 0.0};
@@ -29,14 +15,15 @@ std::string use_device(const std::string& device, sim::Simulation<Dim>& simulati
   if (device == "cpu") {
     return "";
   }
-  try {
-    return step_on_gpu<Dim>(simulation);
-  } catch (const UserError&) {
-    if (device == "auto") {
-      return "";
-    }
-    throw;
+  const device::Gpu gpu = device::find_gpu();
+  if (!gpu.is_usable && device == "auto") {
+    return "";
   }
+  if (!gpu.is_usable) {
+    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.unavailable_reason));
+  }
+  simulation.use_device(gpu.name, device::on_gpu<Dim>());
+  return gpu.name;
 }
 
 template std::string use_device<2>(const std::string&, sim::Simulation<2>&);

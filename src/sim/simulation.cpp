@@ -193,11 +193,6 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
 
 template <int Dim>
 void Simulation<Dim>::use_device(const std::string& device, device::SolverFactory<Dim> make) {
-  const std::string missing = not_on_devices(setup_.model);
-  if (!missing.empty()) {
-    throw UserError(fmt::format("{}: {} is not supported on {}. Run the case on the CPU: --device cpu",
-                                setup_.parameters.name, missing, device));
-  }
   solver().release();
   device_ =
       std::make_unique<DeviceSolver<Dim>>(setup_, *slide_, base_, clock_, stopwatch_, cpu_, device, std::move(make));

@@ -12,9 +12,10 @@ template <int Dim>
 struct NodesOfGrid {
   mpm::Nodes<Dim>& all;
 
+  [[nodiscard]] static mpm::NodeAt node(std::size_t block, std::size_t in_block) { return {block, in_block}; }
   [[nodiscard]] const double* averages_at(const mpm::NodeAt& at) const { return all.averages(at).data(); }
   [[nodiscard]] const double* state_at(const mpm::NodeAt& at) const { return all.state(at).data(); }
-  [[nodiscard]] const double* momentum_at(const mpm::NodeAt& at) const { return all.momentum(at).data(); }
+  [[nodiscard]] double* momentum_at(const mpm::NodeAt& at) const { return all.momentum(at).data(); }
   [[nodiscard]] const double* near_ground_at(const mpm::NodeAt& at) const { return all.near_ground(at).data(); }
   [[nodiscard]] const double* base_at(const mpm::NodeAt& at) const { return all.base(at).data(); }
   [[nodiscard]] double* contact_at(const mpm::NodeAt& at) const {
@@ -40,7 +41,7 @@ class BlockStep {
         candidates(ground != nullptr ? ground->candidates(block) : 0),
         grid_(grid),
         known_(candidates > 0 ? &ground->block(block) : nullptr),
-        width_(model.width),
+        width_(model.width.view()),
         constraints_(grid, constraints, block, time) {}
 
   NodesOfGrid<Dim> nodes;
@@ -65,7 +66,7 @@ class BlockStep {
  private:
   const mpm::SparseGrid<Dim>& grid_;
   const typename GroundOnGrid<Dim>::Block* known_;  // ground at the nodes of the block
-  const mpm::SectionWidth& width_;
+  mpm::WidthView width_;
   mpm::BlockConstraints<Dim> constraints_;
 };
 

@@ -320,9 +320,7 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.constraints = make_constraints<Dim>(parameters, model.origin);
   model.release_times = release_times(parameters, site, model.body_names.size());
   model.between_bodies = between_bodies(parameters, model.body_names.size(), !model.release_times.empty());
-  if (model.between_bodies.has_held) {
-    model.constraints.first_held_layer = model.between_bodies.layers;
-  }
+  model.constraints.first_held_layer = model.between_bodies.first_held_layer();
   model.splits_stretched = parameters.mechanics.enabled && parameters.mechanics.split_stretched;
   model.contact.law = make_basal_law(parameters);
   model.contact.width = model.motion.width;

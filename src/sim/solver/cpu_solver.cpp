@@ -5,6 +5,7 @@
 
 #include "band/new_particles.hpp"
 #include "base/instances.hpp"
+#include "base/parallel.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "mpm/velocity_filter.hpp"
@@ -118,8 +119,17 @@ template <int Dim>
 terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terrain::StrengthLaw* strength) {
   const Model<Dim>& model = setup_.model;
   if (model.between_bodies.any()) {
-    body_contact_.add_forces(slide_.grid, slide_.particles, model.between_bodies, model.motion.sizes,
-                             model.contact.mass_damping, dt, nodes_);
+    body_contact_.update_pairs(slide_.grid.blocks(), model.between_bodies);
+    between_bodies_.emplace(ContactOfBodies{slide_.grid.tables(tables_),
+                                            mpm::view_of(slide_.particles),
+                                            model.motion.sizes.view(),
+                                            model.ground != nullptr,
+                                            setup_.cell(),
+                                            model.contact.mass_damping,
+                                            dt,
+                                            model.motion.gravity,
+                                            {nodes_}});
+    body_contact_.add_forces(*between_bodies_);
   }
   press_on_ground(dt, model.contact.reads_mass || strength != nullptr);
   const bool has_bed = base_.bed_in_reach(model) != nullptr;
@@ -152,7 +162,10 @@ void CpuSolver<Dim>::move_particles(double dt, StepSums<Dim>& sums) {
   sums.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
                                                     model.motion.gravity, clock_.time, dt, nodes_);
   if (model.between_bodies.any()) {
-    sums.between_bodies = body_contact_.constrain_mapped_back(model.motion.gravity, dt, nodes_);
+    std::vector<mpm::BodyContactWork> works(body_contact_.work_count());
+    body_contact_.constrain_mapped_back(*between_bodies_, works.data());
+    sums.between_bodies = parallel_sum<mpm::BodyContactWork>(
+        works.size(), [&](std::size_t k, mpm::BodyContactWork& sum) { sum += works[k]; });
   }
 }
 

@@ -15,6 +15,7 @@
 #include "sim/solver/slide.hpp"
 #include "sim/solver/solver.hpp"
 #include "terrain/bed_on_grid.hpp"
+#include "terrain/block_step.hpp"
 
 namespace thawslide::sim {
 
@@ -58,6 +59,8 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] band::WaterLoss drain_pore_pressure(double dt);
   [[nodiscard]] mpm::InvalidParticle update_positions();
 
+  using ContactOfBodies = mpm::BodyContactArgs<terrain::NodesOfGrid<Dim>, Dim>;
+
   void mark_band();
   void rescale_band();
   [[nodiscard]] band::StagesOnCpu<Dim> band_stages() {
@@ -81,9 +84,11 @@ class CpuSolver final : public Solver<Dim> {
   Stopwatch& stopwatch_;
   mpm::Nodes<Dim> nodes_;
   band::FlowDepth<Dim> flow_depth_;
-  mpm::BodyContact<Dim> body_contact_;
   exec::Cpu cpu_;
-  std::optional<terrain::BedOnGrid<Dim>> bed_;  // none before the bed is in reach
+  mpm::BodyContact<exec::Cpu, Dim> body_contact_{cpu_};
+  mpm::TableMemory tables_;
+  std::optional<ContactOfBodies> between_bodies_;  // of the step
+  std::optional<terrain::BedOnGrid<Dim>> bed_;     // none before the bed is in reach
   std::vector<std::uint64_t> blocks_of_nodes_;
   double band_thickness_ = -1.0;  // of the last scaling [m]
   double rescaling_heat_ = 0;     // added since the last complete step [J]

@@ -1,29 +1,12 @@
 #include "sim/solver/device_model.hpp"
 
 #include "base/instances.hpp"
+#include "sim/setup/release_stages.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/filter_times.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
-
-template <int Dim>
-std::string not_on_devices(const Model<Dim>& model) {
-  const struct {
-    bool is_requested;
-    const char* what;
-  } options[] = {
-      {model.motion.width.varies(), "a case.width that varies along x"},
-      {model.between_bodies.has_held, "a body.NAME.release_time above 0"},
-      {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
-  };
-  for (const auto& option : options) {
-    if (option.is_requested) {
-      return option.what;
-    }
-  }
-  return "";
-}
 
 template <int Dim>
 device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts) {
@@ -42,6 +25,11 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.free_gaps = model.free_gaps;
   device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
   device.frames = model.constraints.frames;
+  device.width = model.motion.width;
+  device.between_bodies = model.between_bodies;
+  if (model.between_bodies.any()) {
+    device.layers_of_bodies = [&model](double time) { return layers_of_bodies(model, time); };
+  }
   // Particles that will be removed may leave the domain before the end of the step.
   const double margin = parameters.grid.leaving == config::Policy::remove ? device.cell : 0.0;
   const Vector<double, Dim> beyond = Vector<double, Dim>::Constant(margin);
@@ -76,11 +64,13 @@ device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double ce
     callbacks.slope_cosine = slope_cosine_of(model, cell);
   }
   callbacks.normal_gravity = normal_gravity_of(model, cell);
+  if (model.band.width.varies()) {
+    callbacks.width = [&model](const auto& position) { return model.band.width.at(position[0]); };
+  }
   return callbacks;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
-  template std::string not_on_devices<Dim>(const Model<Dim>&);                                        \
   template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, bool); \
   template device::HostCallbacks<Dim> terrain_for_device<Dim>(const Model<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

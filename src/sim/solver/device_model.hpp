@@ -1,17 +1,11 @@
-// Input of the device solver (src/device), and features that devices do not support.
+// Input of the device solver (src/device).
 #pragma once
-
-#include <string>
 
 #include "config/case.hpp"
 #include "device/step_model.hpp"
 #include "sim/setup/model.hpp"
 
 namespace thawslide::sim {
-
-// Feature of the case, with its key, that no device supports; empty if all are supported.
-template <int Dim>
-std::string not_on_devices(const Model<Dim>& model);
 
 // starts: true before the first step.
 template <int Dim>

@@ -111,27 +111,5 @@ TEST(DeviceRun, ContinuesFromACheckpoint) {
   }
 }
 
-// Each refusal names the option as written in a case.
-TEST(DeviceRun, RefusesOptionsThatAreNotSupportedOnAGpu) {
-  const std::pair<std::vector<std::string>, std::string> options[] = {
-      {{"contact.between_bodies=frictional", "contact.friction_angle=20.0"},
-       "frictional contact between bodies ([contact])"},
-      {{"body.left.release_time=1.0", "body.left.velocity=[0.0, 0.0]"}, "a body.NAME.release_time above 0"}};
-  std::vector<std::pair<config::Case, std::string>> cases;
-  for (const auto& [sets, option] : options) {
-    cases.emplace_back(sliding_bodies<2>(sets), option);
-  }
-  for (const auto& [parameters, option] : cases) {
-    Simulation<2> simulation(parameters);
-    try {
-      simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
-      ADD_FAILURE() << option;
-    } catch (const UserError& error) {
-      EXPECT_NE(std::string(error.what()).find(option + " is not supported on a GPU"), std::string::npos)
-          << error.what();
-    }
-  }
-}
-
 }  // namespace
 }  // namespace thawslide::sim

@@ -42,7 +42,6 @@ static_assert(!mpm::one_record<RecordList<mpm::Velocity, mpm::HeatRates>>);
 
 template <int Dim>
 device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
-  EXPECT_EQ(not_on_devices(simulation.model()), "");
   return device_model_of(simulation.parameters(), simulation.model(), true);
 }
 

@@ -12,7 +12,6 @@
 #include "sim/records/history.hpp"
 #include "sim/records/run_records.hpp"
 #include "sim/simulation.hpp"
-#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -337,10 +336,6 @@ TEST(ReleaseStages, DelayTheEndAtRest) {
   EXPECT_GE(simulation.time(), 2.1 - 0.5 * dt);
   EXPECT_LT(simulation.time(), 2.3);
   expect_in(simulation.rest_rule(), "after the last scheduled change at 2 s");
-}
-
-TEST(ReleaseStages, AreNotOnDevices) {
-  EXPECT_EQ((not_on_devices(make_model<2>(two_blocks<2>(10.0, first_held)))), "a body.NAME.release_time above 0");
 }
 
 // A release over uneven ground stays exactly in place, by a number or by the time of its polygons.

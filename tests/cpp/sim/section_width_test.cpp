@@ -218,9 +218,8 @@ TEST(SectionWidth, ConservesHeatAndWaterOfBandColumns) {
   EXPECT_GT(value_of(history_row(simulation), "front_position_m"), 320.0) << "it has passed the widest place";
 }
 
-TEST(SectionWidth, IsRefusedOnADeviceAndByTheBlock) {
+TEST(SectionWidth, IsRefusedByTheBlock) {
   const config::Case parameters = case_from_text(column_slab(), {"case.width={ x = [0.0, 9.0], value = [1.0, 2.0] }"});
-  EXPECT_EQ((not_on_devices(make_model<2>(parameters))), "a case.width that varies along x");
   expect_in(error_of([&] { run_block(parameters); }),
             "the block model has one width. Give case.width as a number, or use `thawslide run`.");
 }
