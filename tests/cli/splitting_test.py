@@ -38,6 +38,17 @@ def test_a_slide_one_cell_thick_covers_its_area(thawslide: Program, plane: list[
     assert 0.0 < facts["dilation_fraction"] < 0.05
 
 
+@pytest.mark.long
+def test_a_split_tail_has_no_gap_larger_than_a_cell(thawslide: Program, tmp_path: Path) -> None:
+    # up to 145 m, and 41 gaps of more than 10 m at the end, without splitting
+    thawslide.ok("run", ROOT / "cases" / "lamplugh-columns", *SPLITS, "--output", tmp_path / "run")
+    files = snapshot_files(tmp_path / "run")
+    assert len(files) > 5
+    for file in files:
+        along = np.sort(datasets(file)["VTKHDF/Points"][:, 0])
+        assert np.diff(along).max() < 10.0
+
+
 def test_particle_files_name_the_particle_that_was_split(thawslide: Program, plane: list[str], tmp_path: Path) -> None:
     thawslide.ok("run", *plane, *SPLITS, "--output", tmp_path / "split")
     thawslide.ok("run", *plane, *sets(time__end=1), "--output", tmp_path / "whole")

@@ -153,6 +153,16 @@ def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: pytest.Capt
     assert words in error(capfd, slope, *output)
 
 
+def test_a_kind_with_few_events_names_the_reason(slope: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    for kind, words in (
+        ("rock and ice", '"rock and ice": fewer than 5 published events of a similar volume; allowed: rock'),
+        ("snow", '"snow"; allowed: rock'),
+    ):
+        with pytest.raises(SystemExit):
+            main([str(slope), "--kind", kind])
+        assert f"argument --kind: {words}" in capfd.readouterr().err
+
+
 def test_blocks_that_cannot_be_computed_are_reported(
     slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

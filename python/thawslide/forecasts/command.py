@@ -20,10 +20,10 @@ from thawslide.forecasts.output import prior_lines, write_prior
 from thawslide.forecasts.prior import check_prior, release_volume
 from thawslide.maps import on_map
 from thawslide.messages import LANGUAGES, Messages
-from thawslide.pages.events import published_events
+from thawslide.pages.events import KINDS, published_events
 from thawslide.pages.summary import make_summary
 from thawslide.run_folder import Run
-from thawslide.scores.baseline import comparable_kinds
+from thawslide.scores.baseline import LEAST_EVENTS, comparable_kinds
 from thawslide.scores.ensemble import quantiles
 from thawslide.scores.forecast import read_forecast
 from thawslide.sweeps.api import Options, run_sweep
@@ -151,6 +151,17 @@ def _summarize(folder: SweepFolder, table: pd.DataFrame, language: str, say: Cal
         say(f"summary: {path}")
 
 
+def _allowed_kinds() -> str:
+    return ", ".join(comparable_kinds())
+
+
+def _kind(text: str) -> str:
+    if text in comparable_kinds():
+        return text
+    few = f": fewer than {LEAST_EVENTS} published events of a similar volume" if text in KINDS else ""
+    raise argparse.ArgumentTypeError(f'"{text}"{few}; allowed: {_allowed_kinds()}')
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="thawslide forecast",
@@ -163,7 +174,7 @@ def _parser() -> argparse.ArgumentParser:
         help="sweep: members are as probable as sweep.toml states (default); events: weighted, so that H/L of their "
         "rigid blocks has the distribution of published events; none: no prior check",
     )  # fmt: skip
-    add("--kind", choices=comparable_kinds(), default="", help="kind of the published events (default: all)")
+    add("--kind", type=_kind, default="", help=f"kind of the published events: {_allowed_kinds()} (default: all)")
     add("--event", metavar="NAME", default="", help="published event to leave out, because it is the one to forecast")
     add("--output", metavar="DIR", type=Path, help="folder of the forecast (default: runs/NAME-forecast)")
     add("--workers", type=whole_number, default=0, help="processes (default: one per core, as many as fit into memory)")
