@@ -99,6 +99,7 @@ class Step {
       backend.for_each(count, VisitInMemory<Dim, LocateParticle<Dim>>{passes_.particles.view(), {above_ground()}});
     }
     free_gaps_.set(model.free_gaps);
+    set_layers(model.time);
   }
 
   // Copies to the same number of particles, in their original order.
@@ -200,11 +201,15 @@ class Step {
         passes_.backend.for_each(records->size(), Fill<double>{records->data(), 0.0});
       }
     }
-    if (passes_.model.between_bodies.any()) {
-      body_contact_.update_pairs(passes_.cells.block_keys(), passes_.model.between_bodies);
+    const bool has_pairs = passes_.model.between_bodies.any();
+    std::vector<std::uint64_t> blocks;
+    if (has_pairs || passes_.ground.exists()) {
+      blocks = passes_.cells.block_keys();
+    }
+    if (has_pairs) {
+      body_contact_.update_pairs(blocks, passes_.model.between_bodies);
     }
     if (passes_.ground.exists()) {
-      const std::vector<std::uint64_t> blocks = passes_.cells.block_keys();
       passes_.ground.update(blocks);
       band_columns_.update(blocks);
       if (bed_) {

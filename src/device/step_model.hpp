@@ -44,6 +44,7 @@ struct StepModel {
   terrain::BasalLaw base;
   terrain::ContactOptions contact;
   bool starts = true;  // the next step is the first one, from t = 0
+  double time = 0;     // at its beginning [s]
   band::BandParameters<Dim> band;
   std::vector<double> free_gaps;                      // as in band::FreeGaps
   std::function<double(double time)> band_thickness;  // [m]; 0: no band, xi = 1

@@ -33,10 +33,16 @@ class Cpu {
     std::copy_n(from, count, to);
   }
 
-  // Calls work(k) for k = 0 .. count-1.
+  // Calls work(k) for k = 0 .. count-1, in tasks of Work::of_task items if it has this number.
   template <class Work>
   void for_each(std::size_t count, const Work& work) {
-    constexpr std::size_t of_task = 256;
+    constexpr std::size_t of_task = [] {
+      if constexpr (requires { Work::of_task; }) {
+        return std::size_t{Work::of_task};
+      } else {
+        return std::size_t{256};
+      }
+    }();
     parallel_for((count + of_task - 1) / of_task, [&](std::size_t task) {
       const std::size_t last = std::min(count, (task + 1) * of_task);
       for (std::size_t k = task * of_task; k < last; ++k) {

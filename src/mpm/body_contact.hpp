@@ -48,9 +48,13 @@ class BodyContact {
     meetings_.resize(count);
     executor_.for_each(count, CountAtMeetings<Nodes, Dim>{args, pairs_.data(), counts_.data()});
     executor_.sum_before(counts_.data(), before_.data(), count);
-    edges_.resize(before_.get(count - 1) + counts_.get(count - 1));
-    executor_.for_each(count, FindGaps<Nodes, Dim>{args, pairs_.data(), counts_.data(), before_.data(), edges_.data(),
-                                                   meetings_.data()});
+    constexpr std::size_t at_a_time = 1 << 15;  // bounds the memory of the lists of particles
+    for (std::size_t start = 0; start < count; start += at_a_time) {
+      const std::size_t here = std::min(at_a_time, count - start), last = start + here - 1;
+      edges_.resize(before_.get(last) + counts_.get(last) - before_.get(start));
+      executor_.for_each(here, FindGaps<Nodes, Dim>{args, pairs_.data(), counts_.data(), before_.data(), edges_.data(),
+                                                    meetings_.data(), start});
+    }
     executor_.for_each(work_count(),
                        ExchangeMomentum<Nodes, Dim>{args, pairs_.data(), first_of_place_.data(), meetings_.data()});
   }

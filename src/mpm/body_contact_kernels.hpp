@@ -89,30 +89,28 @@ struct BodyAbout {
     }
     return change;
   }
-  // Calls visit(particle), in canonical order of each tile, for the particles that reach a local node of the block.
+  // Calls visit(first, last) with ranges of ranks, in canonical order of each tile, of the particles that reach a local
+  // node of the block.
   template <class Visit>
-  THAWSLIDE_HD void for_particles_at(std::size_t node, const Visit& visit) const {
+  THAWSLIDE_HD void for_ranks_at(std::size_t node, const Visit& visit) const {
     for (std::size_t d = 0; d < stencil; ++d) {
       const std::int32_t tile = args.tables.tiles_about_block[block * stencil + d];
       if (tile == exec::absent) {
         continue;
       }
       // Cells within one node, in the tile. Cells are numbered like the nodes nearest to their particles.
-      Index here = T::node({}, static_cast<int>(node)), first{}, last{};
+      const Index here = T::node({}, static_cast<int>(node));
+      int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
       for (std::size_t a = 0, direction = d; a < Dim; ++a, direction /= 3) {
-        here[a] -= (static_cast<int>(direction % 3) - 1) * T::edge;
-        first[a] = here[a] > 1 ? here[a] - 1 : 0;
-        last[a] = here[a] + 1 < T::edge ? here[a] + 1 : T::edge - 1;
+        const int along = here[a] - (static_cast<int>(direction % 3) - 1) * T::edge;
+        first[a] = along > 1 ? along - 1 : 0;
+        last[a] = along + 1 < T::edge ? along + 1 : T::edge - 1;
       }
-      for (int cell = 0; cell < T::nodes; ++cell) {
-        const Index at = T::node({}, cell);
-        bool reaches = true;
-        for (std::size_t a = 0; a < Dim; ++a) {
-          reaches = reaches && at[a] >= first[a] && at[a] <= last[a];
-        }
-        const std::uint32_t* rank = args.tables.first_of_cell + static_cast<std::size_t>(tile) * block_nodes + cell;
-        for (std::uint32_t k = rank[0]; reaches && k < rank[1]; ++k) {
-          visit(args.tables.order[k]);
+      const std::uint32_t* ranks = args.tables.first_of_cell + static_cast<std::size_t>(tile) * block_nodes;
+      for (int z = first[2]; z <= last[2]; ++z) {
+        for (int y = first[1]; y <= last[1] && first[0] <= last[0]; ++y) {
+          const int row = (z * T::edge + y) * T::edge;  // cells of a row are consecutive
+          visit(ranks[row + first[0]], ranks[row + last[0] + 1]);
         }
       }
     }
@@ -132,9 +130,9 @@ struct CountAtMeetings {
     const std::size_t node = k % block_nodes;
     std::uint32_t count = 0;
     if (has_mass(pair.block, node) && has_mass(pair.other, node)) {
-      const auto add = [&count](std::uint32_t /*particle*/) { ++count; };
-      BodyAbout<Nodes, Dim>{args, pair.block}.for_particles_at(node, add);
-      BodyAbout<Nodes, Dim>{args, pair.other}.for_particles_at(node, add);
+      const auto add = [&count](std::uint32_t first, std::uint32_t last) { count += last - first; };
+      BodyAbout<Nodes, Dim>{args, pair.block}.for_ranks_at(node, add);
+      BodyAbout<Nodes, Dim>{args, pair.other}.for_ranks_at(node, add);
     }
     counts[k] = count;
   }
@@ -145,7 +143,7 @@ struct CountAtMeetings {
   }
 };
 
-// Normal and gap of two bodies, by pair and node.
+// Normal and gap of two bodies, by pair and node, from number `start` on.
 template <class Nodes, int Dim>
 struct FindGaps {
   using T = Tile<Dim>;
@@ -155,14 +153,17 @@ struct FindGaps {
   static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
   // Candidate normals of a node: from both bodies, the first, the second.
   static constexpr int kinds = 3;
+  static constexpr std::size_t of_task = 16;
 
   BodyContactArgs<Nodes, Dim> args;
   const BlockPair* pairs;
   const std::uint32_t *counts, *before;  // particles of each node, and of those before it
   BoxEdge* all_edges;
   Meeting<Dim>* meetings;
+  std::size_t start;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const {
+  THAWSLIDE_HD void operator()(std::size_t item) const {
+    const std::size_t k = start + item;
     Meeting<Dim>& meeting = meetings[k];
     meeting = {counts[k] > 0, 0.0, Vec::Zero(), Vec::Zero()};
     if (!meeting.in_contact) {
@@ -171,7 +172,7 @@ struct FindGaps {
     const Body first{args, pairs[k / block_nodes].block}, second{args, pairs[k / block_nodes].other};
     const std::size_t node = k % block_nodes;
     Vector<double, Dim - 1> slope = Vector<double, Dim - 1>::Zero(), other_slope = slope;
-    BoxEdge* edges = all_edges + before[k];
+    BoxEdge* edges = all_edges + (before[k] - before[start]);
     BoxEdge* const other_edges = list(first, node, edges, slope);
     BoxEdge* const end = list(second, node, other_edges, other_slope);
     slope = (slope + other_slope) / static_cast<double>(counts[k]);
@@ -213,9 +214,12 @@ struct FindGaps {
 
   // Lists the particles that reach a node, and adds their slopes. Returns the end of the list.
   THAWSLIDE_HD BoxEdge* list(const Body& body, std::size_t node, BoxEdge* edges, Vector<double, Dim - 1>& slope) const {
-    body.for_particles_at(node, [this, &edges, &slope](std::uint32_t particle) {
-      *edges++ = {0.0, particle};
-      slope += slope_of(particle);
+    body.for_ranks_at(node, [this, &edges, &slope](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t k = first; k < last; ++k) {
+        const std::uint32_t particle = args.tables.order[k];
+        *edges++ = {0.0, particle};
+        slope += slope_of(particle);
+      }
     });
     return edges;
   }

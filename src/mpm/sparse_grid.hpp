@@ -17,7 +17,7 @@ namespace thawslide::mpm {
 
 // Memory of those tables for kernels that the grid itself does not have.
 struct TableMemory {
-  std::vector<std::uint64_t> keys, tile_keys;
+  std::vector<std::uint64_t> tile_keys;
   std::vector<std::uint32_t> first_of_cell;
 };
 
@@ -78,7 +78,7 @@ class SparseGrid {
     return &blocks_about_block_[b * stencil];
   }
 
-  // Tables for kernels, valid until the next change of the grid or of `memory`.
+  // Tables for kernels, without the keys of particles; valid until the next change of the grid or of `memory`.
   [[nodiscard]] TileTables<Dim> tables(TableMemory& memory) const;
 
   // Marks the blocks around marked tiles, which contain all nodes in reach of their particles.

@@ -38,7 +38,6 @@ void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, 
 template <int Dim>
 TileTables<Dim> SparseGrid<Dim>::tables(TableMemory& memory) const {
   constexpr auto nodes = static_cast<std::size_t>(T::nodes);
-  memory.keys.resize(order_.size());
   memory.tile_keys.resize(tiles_.size());
   memory.first_of_cell.resize(tiles_.size() * nodes + 1);
   parallel_for(tiles_.size(), [&](std::size_t t) {
@@ -47,8 +46,8 @@ TileTables<Dim> SparseGrid<Dim>::tables(TableMemory& memory) const {
     for (std::size_t cell = 0; cell < nodes; ++cell) {
       memory.first_of_cell[t * nodes + cell] = rank;
       const std::uint64_t key = (tiles_[t].key << T::node_bits) | cell;
-      for (; rank < tiles_[t].last && keys_[order_[rank]] == key; ++rank) {
-        memory.keys[rank] = key;
+      while (rank < tiles_[t].last && keys_[order_[rank]] == key) {
+        ++rank;
       }
     }
   });
@@ -57,7 +56,7 @@ TileTables<Dim> SparseGrid<Dim>::tables(TableMemory& memory) const {
           tiles_.size(),
           blocks_.size(),
           order_.data(),
-          memory.keys.data(),
+          nullptr,
           memory.tile_keys.data(),
           blocks_.data(),
           memory.first_of_cell.data(),

@@ -14,7 +14,7 @@ struct TileTables {
   // By rank in canonical order: the particle, and its key, which combines the tile's key with the place of its nearest
   // node in the tile.
   const std::uint32_t* order;
-  const std::uint64_t* keys;
+  const std::uint64_t* keys;        // null on the CPU
   const std::uint64_t* tile_keys;   // ascending
   const std::uint64_t* block_keys;  // ascending
   // By tile and node of the tile: rank in canonical order of the first particle in that cell or after it. One extra

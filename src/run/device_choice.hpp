@@ -17,9 +17,8 @@ struct GpuFacts {
 };
 [[nodiscard]] GpuFacts detect_gpu();
 
-// Selects a GPU for the steps if requested: "gpu", or "auto" if there is a GPU and the run needs only supported
-// features; "cpu" changes nothing. Returns the device as text; empty for the CPU. Throws UserError with the reason if
-// the GPU is unavailable or does not support the case.
+// Selects a GPU for the steps if requested: "gpu", or "auto" if there is one; "cpu" changes nothing. Returns the device
+// as text; empty for the CPU. Throws UserError with the reason if the GPU is unavailable.
 template <int Dim>
 std::string use_device(const std::string& device, sim::Simulation<Dim>& simulation);
 

@@ -50,8 +50,7 @@ class Simulation {
   // that of this step and still contains the particles that left last; they count in no left_* column of the history.
   [[nodiscard]] const std::string& left_text() const { return left_text_; }
 
-  // Performs all further steps on a device. Throws UserError, with the key, for features that no device supports; a
-  // step throws DeviceError if the device fails.
+  // Performs all further steps on a device. A step throws DeviceError if the device fails.
   void use_device(const std::string& device, device::SolverFactory<Dim> make);
 
   // Appends particles between two steps, with new ids. They are in no band until the next step.

@@ -156,7 +156,7 @@ def _allowed_kinds() -> str:
 
 
 def _kind(text: str) -> str:
-    if text in comparable_kinds():
+    if text in ("", *comparable_kinds()):
         return text
     few = f": fewer than {LEAST_EVENTS} published events of a similar volume" if text in KINDS else ""
     raise argparse.ArgumentTypeError(f'"{text}"{few}; allowed: {_allowed_kinds()}')

@@ -9,7 +9,6 @@
 #include "mpm/front_stage.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "mpm/velocity_filter.hpp"
-#include "sim/setup/release_stages.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/filter_times.hpp"
 #include "sim/solver/time_step.hpp"
@@ -73,9 +72,7 @@ template <int Dim>
 void CpuSolver<Dim>::find_cells() {
   blocks_of_nodes_.clear();
   slide_.locate(setup_.model);
-  if (setup_.model.between_bodies.has_held) {
-    slide_.grid.set_layers(layers_of_bodies(setup_.model, clock_.time));
-  }
+  slide_.set_layers(setup_.model, clock_.time);
   slide_.update_grid(setup_.model, slide_.sorting_interval);
   if (slide_.grid.blocks_changed() && !setup_.parameters.mechanics.enabled) {
     terrain::start_contact(slide_.grid, ground(), nodes_);  // there is no contact, and no step resolves it
@@ -120,6 +117,8 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terra
   const Model<Dim>& model = setup_.model;
   if (model.between_bodies.any()) {
     body_contact_.update_pairs(slide_.grid.blocks(), model.between_bodies);
+  }
+  if (body_contact_.work_count() > 0) {
     between_bodies_.emplace(ContactOfBodies{slide_.grid.tables(tables_),
                                             mpm::view_of(slide_.particles),
                                             model.motion.sizes.view(),
@@ -161,7 +160,7 @@ void CpuSolver<Dim>::move_particles(double dt, StepSums<Dim>& sums) {
   }
   sums.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
                                                     model.motion.gravity, clock_.time, dt, nodes_);
-  if (model.between_bodies.any()) {
+  if (body_contact_.work_count() > 0) {
     std::vector<mpm::BodyContactWork> works(body_contact_.work_count());
     body_contact_.constrain_mapped_back(*between_bodies_, works.data());
     sums.between_bodies = parallel_sum<mpm::BodyContactWork>(

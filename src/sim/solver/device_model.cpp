@@ -9,7 +9,7 @@
 namespace thawslide::sim {
 
 template <int Dim>
-device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts) {
+device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock) {
   device::StepModel<Dim> device;
   device.cell = parameters.grid.cell;
   device.mapping = mapping_of(model);
@@ -44,7 +44,8 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.band = model.band;
   device.band.pressure = model.band.pressure && !has_columns;
   device.band.heat = model.band.heat && !has_columns;
-  device.starts = starts;
+  device.starts = clock.step_number == 0;
+  device.time = clock.time;
   device.rescales_band = !has_columns;
   device.band_thickness = [thickness = parameters.band.thickness](double time) { return thickness.at(time); };
   return device;
@@ -70,8 +71,8 @@ device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double ce
   return callbacks;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
-  template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, bool); \
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                            \
+  template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, const Clock&); \
   template device::HostCallbacks<Dim> terrain_for_device<Dim>(const Model<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

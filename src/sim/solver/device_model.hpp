@@ -4,12 +4,13 @@
 #include "config/case.hpp"
 #include "device/step_model.hpp"
 #include "sim/setup/model.hpp"
+#include "sim/solver/clock.hpp"
 
 namespace thawslide::sim {
 
-// starts: true before the first step.
+// clock: before the first step on the device.
 template <int Dim>
-device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts);
+device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock);
 
 // Queries of the model's terrain; the model must outlive the result.
 template <int Dim>

@@ -31,7 +31,7 @@ struct DeviceSolver<Dim>::Session {
   std::unique_ptr<device::Solver<Dim>> solver;  // null while the next step begins with the particles of the host
   StepSums<Dim> sums;                           // of the last step
   device::MapSample map_sample;                 // of the last step
-  double dt = 0;                                // of the step [s]
+  double time = 0, dt = 0;                      // of the step: beginning, and duration [s]
   bool host_particles_valid = true, host_grid_valid = true, has_failed = false;
 };
 
@@ -78,8 +78,8 @@ void DeviceSolver<Dim>::start() {
     device::HostCallbacks<Dim> callbacks = terrain_for_device(setup_.model, setup_.cell());
     callbacks.columns = columns_for_device(setup_, clock_, session_->dt, base_);
     callbacks.bed = base_.bed_in_reach(setup_.model);
-    session_->solver = make_(device_model_of(setup_.parameters, setup_.model, clock_.step_number == 0),
-                             mpm::view_of(slide_.particles), slide_.particles.size(), std::move(callbacks));
+    session_->solver = make_(device_model_of(setup_.parameters, setup_.model, clock_), mpm::view_of(slide_.particles),
+                             slide_.particles.size(), std::move(callbacks));
     session_->sums.extremes = session_->solver->extremes();
   });
 }
@@ -90,6 +90,7 @@ StepSums<Dim> DeviceSolver<Dim>::step(double dt, const terrain::StrengthLaw* str
   THAWSLIDE_ASSERT(strength == nullptr, "a law of the caller on {}", name_);
   start();
   Session& session = *session_;
+  session.time = clock_.time;
   session.dt = dt;
   stopwatch_.time("step_on_device", [&] {
     call([&] {
@@ -171,11 +172,13 @@ void DeviceSolver<Dim>::copy_particles_back() const {
   }
 }
 
-// Rebuilds the grid from the particles' positions: sums in its order then do not depend on the time of synchronization.
+// Rebuilds the grid from the particles' positions and the layers of the last step: sums in its order then do not depend
+// on the time of synchronization.
 template <int Dim>
 void DeviceSolver<Dim>::sync_to_host() const {
   copy_particles_back();
   if (!session_->host_grid_valid) {
+    slide_.set_layers(setup_.model, session_->time);
     slide_.update_grid(setup_.model, 0);
     session_->host_grid_valid = true;
   }

@@ -9,6 +9,7 @@
 #include "mpm/particles.hpp"
 #include "mpm/sparse_grid.hpp"
 #include "sim/setup/model.hpp"
+#include "sim/setup/release_stages.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
@@ -31,6 +32,12 @@ struct Slide {
     if (model.ground && !are_located) {
       model.ground->locate(particles);
       are_located = true;
+    }
+  }
+  // Moves bodies that are released to the layers of moving ones, from the next update of the grid on.
+  void set_layers(const Model<Dim>& model, double time) {
+    if (model.between_bodies.has_held) {
+      grid.set_layers(layers_of_bodies(model, time));
     }
   }
   // Updates the grid, and the ground at its nodes, to the particles' positions. sorting: steps between two sortings of

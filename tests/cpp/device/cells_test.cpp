@@ -24,6 +24,7 @@ void scatter(std::size_t count, Particles<Dim>& particles) {
   particles.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
     particles.id(p) = static_cast<std::int64_t>((p * 7919) % count) + 5;
+    particles.body(p) = static_cast<std::int32_t>(p % 2);
     for (int a = 0; a < Dim; ++a) {
       particles.position(p, a) = std::normal_distribution<double>(-2.0, 6.0)(random);
     }
@@ -43,12 +44,13 @@ void expect_the_tables_of(const SparseGrid<Dim>& grid, const device::TileTables<
   ASSERT_EQ(tables.blocks, grid.blocks().size());
   expect_the_same(tables.order, grid.order(), "order");
   expect_the_same(tables.block_keys, grid.blocks(), "blocks");
+  TableMemory memory;
+  static_cast<void>(grid.tables(memory));
+  expect_the_same(tables.tile_keys, memory.tile_keys, "tiles");
+  expect_the_same(tables.first_of_cell, memory.first_of_cell, "cells");
   constexpr auto stencil = static_cast<std::size_t>(Tile<Dim>::stencil),
                  nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
   for (std::size_t t = 0; t < tables.tiles; ++t) {
-    EXPECT_EQ(tables.tile_keys[t], grid.tiles()[t].key);
-    EXPECT_EQ(tables.first_of_cell[t * nodes], grid.tiles()[t].first);
-    EXPECT_EQ(tables.first_of_cell[(t + 1) * nodes], grid.tiles()[t].last);
     for (std::size_t d = 0; d < stencil; ++d) {
       EXPECT_EQ(tables.blocks_about_tile[t * stencil + d], grid.blocks_about_tile(t)[d]);
     }
@@ -68,15 +70,22 @@ void expect_the_tables_of(const SparseGrid<Dim>& grid, const device::TileTables<
 }
 
 // The grid sorts particles in memory only at the beginning, the device never: the order in memory is then the same.
+// layers: the second body has separate tiles until it moves to those of the first one.
 template <int Dim>
-void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
+void expect_the_tables_of_the_grid(std::size_t count, const Host& with, bool layers) {
   Particles<Dim> particles;
   scatter(count, particles);
   SparseGrid<Dim> grid(0.7);
+  if (layers) {
+    grid.set_layers({0, 1});
+  }
   grid.update(particles, 0);
   Host host = with;
   device::Particles<Host, Dim> on_device(host, view_of(particles), count);
   device::Cells<Host, Dim> cells(host, 0.7, {});
+  if (layers) {
+    cells.set_layers({0, 1});
+  }
   cells.update(on_device.view(), on_device.by_id(), count);
   host.wait();
   EXPECT_TRUE(cells.blocks_changed());
@@ -92,6 +101,10 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
       }
     }
     particles.position(count / 2, 0) += step == 4 ? 40.0 : 0.0;
+    if (layers && step == 2) {
+      grid.set_layers({0, 0});
+      cells.set_layers({0, 0});
+    }
     for (std::size_t p = 0; p < count; ++p) {
       for (int a = 0; a < Dim; ++a) {
         on_device.view().position(p, a) = particles.position(p, a);
@@ -117,8 +130,10 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
 
 TEST(DeviceCells, HaveTheOrderAndTablesOfTheGrid) {
   for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::backward, ThreadOrder::shuffled}) {
-    expect_the_tables_of_the_grid<2>(500, Host(order));
-    expect_the_tables_of_the_grid<3>(300, Host(order));
+    for (const bool layers : {false, true}) {
+      expect_the_tables_of_the_grid<2>(500, Host(order), layers);
+      expect_the_tables_of_the_grid<3>(300, Host(order), layers);
+    }
   }
 }
 

@@ -1,4 +1,4 @@
-// Runs on a device that fail, are refused, or continue from a checkpoint.
+// Runs on a device that fail, or continue from a checkpoint.
 #include <filesystem>
 #include <utility>
 
@@ -81,8 +81,8 @@ TEST(DeviceRun, ReportsADeviceThatFailsWhileABodySettles) {
 }
 
 // Continues from a checkpoint, on the CPU or on a device again.
-TEST(DeviceRun, ContinuesFromACheckpoint) {
-  const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
+void expect_continuation(const Sets& sets) {
+  const config::Case parameters = sliding_bodies<2>(Sets("time.stepping=adaptive") + sets);
   Simulation<2> whole(parameters), first(parameters);
   for (Simulation<2>* simulation : {&whole, &first}) {
     simulation->use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
@@ -109,6 +109,11 @@ TEST(DeviceRun, ContinuesFromACheckpoint) {
     EXPECT_EQ(second.time(), whole.time());
     expect_the_same_particles(second, whole);
   }
+}
+TEST(DeviceRun, ContinuesFromACheckpoint) {
+  expect_continuation({});
+  expect_continuation("body.left.release_time=0.01; body.left.velocity=[0,0]");  // before the first part
+  expect_continuation("body.left.release_time=0.035; body.left.velocity=[0,0]");
 }
 
 }  // namespace

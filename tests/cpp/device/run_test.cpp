@@ -81,39 +81,6 @@ TEST(DeviceRun, MovesTheFramesOfTheCpu) {
   expect_the_same_with_a_frame<3>(12);
 }
 
-// The left body is faster, and reaches the right one after some steps; or it is held, and the right one leaves it.
-template <int Dim>
-void expect_the_same_contact_of_bodies(const Sets& more, int steps) {
-  const std::string still = Dim == 2 ? "[0,0]" : "[0,0,0]", fast = Dim == 2 ? "[6,0]" : "[6,0,0]";
-  const Sets contact = "contact.between_bodies=frictional; contact.friction_angle=20";
-  const Sets held = "body.left.release_time=0.03; body.left.velocity=" + still;
-  for (const Sets& sets : {contact + Sets("body.left.velocity=" + fast), held, contact + held}) {
-    SCOPED_TRACE(fmt::format("{}", fmt::join(sets, "; ")));
-    EXPECT_EQ(expect_the_same_run<Dim>(sliding_bodies<Dim>(sets + more), steps), 0);
-  }
-  // The bodies touch: their friction matters.
-  std::vector<std::vector<double>> velocities;
-  for (const char* angle : {"contact.friction_angle=20", "contact.friction_angle=5"}) {
-    Simulation<Dim> simulation(sliding_bodies<Dim>(contact + Sets("body.left.velocity=" + fast) + more + Sets(angle)));
-    for (int k = 0; k < steps; ++k) {
-      simulation.step(simulation.next_step(10.0));
-    }
-    velocities.push_back(fields_by_id(simulation.particles()).at("velocity"));
-  }
-  EXPECT_NE(velocities[0], velocities[1]);
-}
-TEST(DeviceRun, KeepsTheContactAndTheStagesOfBodies) {
-  expect_the_same_contact_of_bodies<2>({}, 45);
-  expect_the_same_contact_of_bodies<2>("mechanics.transfer=apic; time.stepping=adaptive", 30);
-  expect_the_same_contact_of_bodies<3>({}, 22);
-}
-TEST(DeviceRun, KeepsAVaryingWidthOfASection) {
-  const Sets width = "case.width={ x = [-2.0, 6.0, 14.0], value = [10.0, 30.0, 15.0] }";
-  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(width), 45), 0);
-  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(width + "pressure.frozen=none"), 25), 0);
-  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(Sets(on_columns) + width), 45), 0);
-}
-
 TEST(DeviceRun, KeepsTheBandColumnsOfTheCpu) {
   expect_the_same_columns<2>(60);
   expect_the_same_columns<3>(25);
@@ -188,14 +155,6 @@ config::Site bumpy_site(double known_to, double spacing = 2.0) {
   return site;
 }
 
-// In layers, on ground.
-TEST(DeviceRun, KeepsStagesOnADem) {
-  const Sets held = "body.left.release_time=0.012; body.left.velocity=[0,0,0]";
-  EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(on_dem() + held), 12, bumpy_site(40.0)), 0);
-  const Sets frictional = "contact.between_bodies=frictional; contact.friction_angle=20";
-  EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(on_dem() + held + frictional), 12, bumpy_site(40.0)), 0);
-}
-
 TEST(DeviceRun, StaysOnKnownGround) {
   const config::Case parameters = sliding_bodies<3>(on_dem());
   EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
@@ -254,7 +213,8 @@ void expect_the_same_map(const MapKind& kind, const FlowMaps& found, const FlowM
   }
 }
 
-// Maps with cells as wide as those of the grid, with narrower and wider ones, with band columns, and on a plane.
+// Maps with cells as wide as those of the grid, with narrower and wider ones, with band columns, on a plane, and of a
+// release in stages.
 TEST(DeviceRun, RecordsTheMapsOfTheCpu) {
   const std::vector<std::vector<std::string>> choices{
       {"maps.arrival_thickness=0.1"},
@@ -262,7 +222,8 @@ TEST(DeviceRun, RecordsTheMapsOfTheCpu) {
       {"maps.cell=2.7"},
       on_columns,
       {"terrain.type=plane", "terrain.slope=10", "terrain.elevation=-0.2"},
-      {"grid.leaving=remove", "grid.max=[8.0,10.0,18.0]"}};
+      {"grid.leaving=remove", "grid.max=[8.0,10.0,18.0]"},
+      {"body.left.release_time=0.03", "body.left.velocity=[0,0,0]"}};
   for (const std::vector<std::string>& sets : choices) {
     SCOPED_TRACE(sets.front());
     const config::Case parameters = sliding_bodies<3>(sets);

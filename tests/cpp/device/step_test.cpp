@@ -42,7 +42,7 @@ static_assert(!mpm::one_record<RecordList<mpm::Velocity, mpm::HeatRates>>);
 
 template <int Dim>
 device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
-  return device_model_of(simulation.parameters(), simulation.model(), true);
+  return device_model_of(simulation.parameters(), simulation.model(), Clock{});
 }
 
 template <int Dim>

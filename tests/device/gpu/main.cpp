@@ -205,6 +205,7 @@ template <int Dim>
 bool compare_variant(const device::SolverFactory<Dim>& make, const Size& size, const NamedVariant& of) {
   ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
   seed(size, start);
+  seed_bodies(of.variant, size, start);
   const auto specified = std::make_shared<Reported>(), reported_by_gpu = std::make_shared<Reported>();
   const auto processor = steps_of(device::emulated<Dim>(), start, of.variant, specified);
   const auto gpu = steps_of(make, start, of.variant, reported_by_gpu);

@@ -24,14 +24,17 @@ enum class Variant {
   at_rest,
   unknown_ground,
   columns,
-  bed
+  bed,
+  bodies,
+  stages,
+  width
 };
 
 struct NamedVariant {
   Variant variant;
   const char* name;
 };
-inline constexpr std::array<NamedVariant, 11> variants{{{Variant::plain, "as it is"},
+inline constexpr std::array<NamedVariant, 14> variants{{{Variant::plain, "as it is"},
                                                         {Variant::elastic, "without yielding"},
                                                         {Variant::quadratic, "quadratic shape functions"},
                                                         {Variant::apic, "APIC"},
@@ -41,7 +44,19 @@ inline constexpr std::array<NamedVariant, 11> variants{{{Variant::plain, "as it 
                                                         {Variant::at_rest, "heat and pressure alone"},
                                                         {Variant::unknown_ground, "ground not known everywhere"},
                                                         {Variant::columns, "band columns"},
-                                                        {Variant::bed, "erodible bed"}}};
+                                                        {Variant::bed, "erodible bed"},
+                                                        {Variant::bodies, "contact between bodies"},
+                                                        {Variant::stages, "release in stages"},
+                                                        {Variant::width, "varying width (2D)"}}};
+
+// The rear half of the slide becomes a second body if the variant has two.
+template <int Dim>
+void seed_bodies(Variant variant, const Size& size, ParticleMemory<Dim>& memory) {
+  const mpm::ParticleView<Dim>& p = memory.view();
+  for (std::size_t k = 0; (variant == Variant::bodies || variant == Variant::stages) && k < memory.size(); ++k) {
+    p.body(k) = p.position(k, 0) < (16.0 + 0.5 * static_cast<double>(size.length)) * cell ? 1 : 0;
+  }
+}
 
 template <int Dim>
 device::StepModel<Dim> model_of(Variant variant) {
@@ -75,6 +90,23 @@ device::StepModel<Dim> model_of(Variant variant) {
       break;
     case Variant::columns:  // as in sim::device_model_of
       model.band.heat = model.band.pressure = model.rescales_band = false;
+      break;
+    case Variant::bodies:
+      model.half_sizes.push_back(model.half_sizes[0]);
+      model.between_bodies = {{0, 1}, 2, false, {mpm::rough, 0.3, 0.3, mpm::rough}};
+      model.layers_of_bodies = [](double /*time*/) { return std::vector<std::uint8_t>{0, 1}; };
+      break;
+    case Variant::stages:
+      model.half_sizes.push_back(model.half_sizes[0]);
+      model.between_bodies = {{0, 0}, 1, true, {mpm::rough}};
+      model.layers_of_bodies = [](double time) {
+        return std::vector<std::uint8_t>{0, static_cast<std::uint8_t>(time < 5.5 * time_step ? 1 : 0)};
+      };
+      break;
+    case Variant::width:
+      if (Dim == 2) {
+        model.width = mpm::SectionWidth({{14.0, 20.0, 26.0}, {10.0, 25.0, 15.0}}, 0.0);
+      }
       break;
     case Variant::plain:
     case Variant::unknown_ground:
