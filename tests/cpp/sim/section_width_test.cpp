@@ -28,7 +28,7 @@ TEST(SectionWidth, IsLinearBetweenPlacesAndConstantBeyond) {
                                               {200.0, 1.5, 0.0},
                                               {1e6, 1.5, 0.0}}) {
     EXPECT_DOUBLE_EQ(width.at(x), relative) << x;
-    EXPECT_DOUBLE_EQ(width.widening(x), widening) << x;
+    EXPECT_DOUBLE_EQ(width.view().widening(x), widening) << x;
   }
   EXPECT_FALSE(mpm::SectionWidth().varies());
   EXPECT_EQ(mpm::SectionWidth().at(7.0), 1.0);
