@@ -2,6 +2,8 @@
 // tables are rebuilt when the nearest node of any particle changes.
 #pragma once
 
+#include <utility>
+
 #include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
 #include "exec/array.hpp"
@@ -22,7 +24,12 @@ class Cells {
       : backend_(backend), inverse_cell_(1.0 / cell), mapping_(mapping) {}
 
   // Moves bodies to other layers of the grid, from the next update on.
-  void set_layers(const std::vector<std::uint8_t>& layer_of_body) { layer_of_body_.set(layer_of_body); }
+  void set_layers(std::vector<std::uint8_t> layer_of_body) {
+    if (layer_of_body != layers_) {
+      layer_of_body_.set(layer_of_body);
+      layers_ = std::move(layer_of_body);
+    }
+  }
   // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
   void update(const mpm::ParticleView<Dim>& particles, const std::uint32_t* by_id, std::size_t count) {
     blocks_changed_ = false;
@@ -107,7 +114,8 @@ class Cells {
   Backend& backend_;
   double inverse_cell_;
   mpm::Mapping mapping_;
-  exec::Array<std::uint8_t, Backend> layer_of_body_{backend_};  // empty: all bodies share nodes
+  std::vector<std::uint8_t> layers_;                            // by body; empty: all share nodes
+  exec::Array<std::uint8_t, Backend> layer_of_body_{backend_};  // the same
   exec::Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
   exec::Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};
   exec::Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};

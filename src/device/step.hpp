@@ -8,6 +8,7 @@
 
 #include "device/band_columns.hpp"
 #include "device/band_stages.hpp"
+#include "device/deform_material.hpp"
 #include "device/erodible_bed.hpp"
 #include "device/escape_check.hpp"
 #include "device/ground.hpp"
@@ -20,37 +21,9 @@
 #include "mpm/body_contact.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/motion_kernels.hpp"
-#include "mpm/stress_kernel.hpp"
 #include "terrain/band_marks_kernel.hpp"
 
 namespace thawslide::device {
-
-template <int Dim, class Law, class Width>
-struct DeformMaterial {
-  using Kernel = mpm::Deform<Dim, Law, Width>;
-  using Reads = typename Kernel::Reads;
-  using Adds = typename Kernel::Adds;
-  using Totals = typename Kernel::Totals;
-
-  // Parameters of mpm::Deform.
-  Law law;
-  mpm::MaterialParameters material;
-  physics::Phases phases;
-  bool effective_stress;
-  double dt;
-  Width width;
-  std::int32_t number;  // of the material
-  bool is_only_one;     // all particles have this material
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Totals& totals) const {
-    if (is_only_one || particles.material(at.particle[0]) == number) {
-      const Kernel deform{law, material, phases, effective_stress, dt, width};
-      deform(particles, at, seen, added, totals);
-    }
-  }
-};
 
 // The force of the walls of a section along x [N], from that on the ground.
 template <int Dim>
@@ -175,11 +148,7 @@ class Step {
 
   void set_layers(double time) {
     if (passes_.model.layers_of_bodies) {
-      std::vector<std::uint8_t> layers = passes_.model.layers_of_bodies(time);
-      if (layers != layers_) {
-        passes_.cells.set_layers(layers);
-        layers_ = std::move(layers);
-      }
+      passes_.cells.set_layers(passes_.model.layers_of_bodies(time));
     }
   }
 
@@ -385,7 +354,6 @@ class Step {
 
   Passes passes_;
   mpm::BodyContact<Backend, Dim> body_contact_{passes_.backend};
-  std::vector<std::uint8_t> layers_;  // of the grid, by body
   exec::Array<Sums, Backend> sums_;
   exec::Array<double, Backend> force_of_walls_{passes_.backend, 1};  // of a section, along x [N]
   BandStages<Backend, Shape, Dim> band_;

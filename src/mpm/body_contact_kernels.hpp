@@ -1,5 +1,5 @@
-// Contact of two bodies at a node (mpm/body_contact.hpp): normal, gap, forces, and velocities mapped back. One thread
-// per node of a pair of blocks, or per node of a place with all pairs there. For host and device.
+// Contact of two bodies at a node (mpm/body_contact.hpp). One thread per node of a pair of blocks, or per node of a
+// place with all pairs there. For host and device.
 #pragma once
 
 #include <cstddef>
@@ -64,6 +64,9 @@ struct BodyAbout {
   const BodyContactArgs<Nodes, Dim>& args;
   std::size_t block;
 
+  [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
+    return args.nodes.momentum_at(Nodes::node(block, node))[MomentumLayout<Dim>::mass] > 0.0;
+  }
   // Volume [m3] at a node given relative to the block's first one; 0 if there is no block.
   [[nodiscard]] THAWSLIDE_HD double volume(const Index& node) const {
     Index tile{};
@@ -89,8 +92,7 @@ struct BodyAbout {
     }
     return change;
   }
-  // Calls visit(first, last) with ranges of ranks, in canonical order of each tile, of the particles that reach a local
-  // node of the block.
+  // Calls visit(first, last) with ranges of ranks, by tile, of the particles that reach a local node of the block.
   template <class Visit>
   THAWSLIDE_HD void for_ranks_at(std::size_t node, const Visit& visit) const {
     for (std::size_t d = 0; d < stencil; ++d) {
@@ -120,26 +122,21 @@ struct BodyAbout {
 // Number of particles of both bodies at each node where both have mass, by pair and node.
 template <class Nodes, int Dim>
 struct CountAtMeetings {
-  static constexpr auto block_nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
   BodyContactArgs<Nodes, Dim> args;
   const BlockPair* pairs;
   std::uint32_t* counts;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    const BlockPair& pair = pairs[k / block_nodes];
-    const std::size_t node = k % block_nodes;
+    using Body = BodyAbout<Nodes, Dim>;
+    const Body first{args, pairs[k / Body::block_nodes].block}, second{args, pairs[k / Body::block_nodes].other};
+    const std::size_t node = k % Body::block_nodes;
     std::uint32_t count = 0;
-    if (has_mass(pair.block, node) && has_mass(pair.other, node)) {
-      const auto add = [&count](std::uint32_t first, std::uint32_t last) { count += last - first; };
-      BodyAbout<Nodes, Dim>{args, pair.block}.for_ranks_at(node, add);
-      BodyAbout<Nodes, Dim>{args, pair.other}.for_ranks_at(node, add);
+    const auto add = [&count](std::uint32_t from, std::uint32_t to) { count += to - from; };
+    if (first.has_mass(node) && second.has_mass(node)) {
+      first.for_ranks_at(node, add);
+      second.for_ranks_at(node, add);
     }
     counts[k] = count;
-  }
-
- private:
-  [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t block, std::size_t node) const {
-    return args.nodes.momentum_at(Nodes::node(block, node))[MomentumLayout<Dim>::mass] > 0.0;
   }
 };
 
@@ -147,7 +144,6 @@ struct CountAtMeetings {
 template <class Nodes, int Dim>
 struct FindGaps {
   using T = Tile<Dim>;
-  using Index = typename T::Index;
   using Vec = Vector<double, Dim>;
   using Body = BodyAbout<Nodes, Dim>;
   static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
@@ -212,7 +208,7 @@ struct FindGaps {
                            : Vector<double, Dim - 1>(Vector<double, Dim - 1>::Zero());
   }
 
-  // Lists the particles that reach a node, and adds their slopes. Returns the end of the list.
+  // Lists the particles that reach a node, and adds their slopes. Returns the list's end.
   THAWSLIDE_HD BoxEdge* list(const Body& body, std::size_t node, BoxEdge* edges, Vector<double, Dim - 1>& slope) const {
     body.for_ranks_at(node, [this, &edges, &slope](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t k = first; k < last; ++k) {
@@ -227,13 +223,13 @@ struct FindGaps {
   // Gradients of the nodal volumes V_1 and V_2, averaged over the surrounding nodes. The first, V_1 grad V_2 - V_2 grad
   // V_1, is along the gradient of ln(V_2 / V_1); a cut through both bodies, as by the ground, does not rotate it. The
   // others are -grad V_1 and grad V_2.
-  THAWSLIDE_HD static void find_gradients(const Body& first, const Body& second, const Index& here,
+  THAWSLIDE_HD static void find_gradients(const Body& first, const Body& second, const typename T::Index& here,
                                           Vec (&gradients)[kinds]) {
     for (Vec& gradient : gradients) {
       gradient.setZero();
     }
     for (int about = 0; about < T::stencil; ++about) {
-      Index node = here;
+      typename T::Index node = here;
       double weight = 1;
       for (std::size_t a = 0, rest = static_cast<std::size_t>(about); a < Dim; ++a, rest /= 3) {
         node[a] += static_cast<int>(rest % 3) - 1;
@@ -393,12 +389,11 @@ struct SeparateMappedBack {
     const Vec before = vector_at<Dim>(velocity, 0);
     const Vec change = (sign * impulse / mass) * meeting.normal;
     const Vec middle = vector_at<Dim>(args.nodes.motion_at(node), MotionLayout<Dim>::middle_velocity);
-    const Vec transferred = sign * meeting.impulse;
     const Vec internal =
         args.dt * (vector_at<Dim>(args.nodes.momentum_at(node), MomentumLayout<Dim>::force) - mass * args.gravity);
     set_vector<Dim>(velocity, 0, Vec(before + change));
-    work.loss -= transferred.dot(middle);
-    work.numerical -= transferred.dot(Vec(middle - before - change)) + internal.dot(change);
+    work.loss -= sign * meeting.impulse.dot(middle);
+    work.numerical -= sign * meeting.impulse.dot(Vec(middle - before - change)) + internal.dot(change);
   }
 };
 
