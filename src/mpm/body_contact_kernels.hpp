@@ -260,9 +260,8 @@ struct FindGaps {
 
   // Shell sort, with the foremost first on the side given by a sign.
   THAWSLIDE_HD static void sort(BoxEdge* edges, const BoxEdge* end, double sign) {
-    const auto count = static_cast<int>(end - edges);
     for (const int step : {132, 57, 23, 10, 4, 1}) {
-      for (int k = step; k < count; ++k) {
+      for (int k = step; k < end - edges; ++k) {
         const BoxEdge one = edges[k];
         int place = k;
         for (; place >= step && sign * edges[place - step].along < sign * one.along; place -= step) {
