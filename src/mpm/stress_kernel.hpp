@@ -92,8 +92,8 @@ struct Deform {
   // The strain across the section, like the others on the middle configuration, uses the velocity conjugate to the wall
   // force. The volume uses the displacement; volume over width is then the area in the section.
   template <class Particles, class At, class Value, class Increment>
-  THAWSLIDE_ALWAYS_INLINE void stretch_across(const Particles& particles, const At& at, const Value& velocity,
-                                              Increment& increment) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void stretch_across(const Particles& particles, const At& at,
+                                                           const Value& velocity, Increment& increment) const {
     const Value x = particles.position.load(at, 0);
     const Value displacement = Value(dt) * velocity;
     increment.strain[2] = displacement * width.widening(Value(x + Value(0.5) * displacement));

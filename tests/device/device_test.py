@@ -14,7 +14,7 @@ STEP = Path(__file__).with_name("step_kernels.cu")
 GPU = ROOT / "src" / "device" / "gpu.cu"
 BASAL_LAWS = ROOT / "src" / "physics" / "basal" / "laws.hpp"
 OLDEST = 12  # version of nvcc: the first with C++20
-LIMIT = 600.0  # s; the physics alone needs about 10, the step on a GPU 60
+LIMIT = 1200.0  # s; the physics alone needs about 10, the step on a GPU 150
 
 # Maximum registers of a kernel: those of nvcc 13.0, and about a tenth more for other versions. A multiprocessor of
 # sm_90 has 65,536, so that 80 leave it 24 groups of 32 threads, 96 leave it 20.
