@@ -33,7 +33,7 @@ class BodyContact {
     pairs_.set(pairs);
     first_of_place_.set(first_of_place);
   }
-  // Number of works of constrain_mapped_back.
+  // Length of `works` in constrain_mapped_back.
   [[nodiscard]] std::size_t work_count() const { return (first_of_place_.size() - 1) * block_nodes; }
 
   // Adds the contact forces between bodies in this step to the nodes.
