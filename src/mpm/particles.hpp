@@ -1,4 +1,4 @@
-// Material points: all particle fields, declared once.
+// Material points: all particle fields (mpm/particle_fields.hpp).
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include "base/linear.hpp"
 #include "mpm/field.hpp"
+#include "mpm/particle_fields.hpp"
 
 namespace thawslide::mpm {
 
@@ -16,72 +17,13 @@ inline constexpr double most_particles = 2.3e8;
 template <int Dim>
 class Particles {
  public:
-  static constexpr int tensor_components = Dim == 2 ? 4 : 6;
   using Scalar = Field<double, 1>;
-  using VectorField = Field<double, Dim>;
-  using TensorField = Field<double, tensor_components>;
 
   FieldList fields;
 
-  // clang-format off
-  Field<std::int64_t, 1> id{fields, {"id", "1", FieldShape::scalar, "number of the particle"}};
-  Field<std::int32_t, 1> body{
-      fields, {"body", "1", FieldShape::scalar, "number of the body, from 0 in alphabetical order of the names"}};
-  Field<std::int32_t, 1> material{fields, {"material", "1"}};
-  Scalar mass{fields, {"mass", "kg", FieldShape::scalar, "mass; in 2D per metre of width"}};
-  Scalar volume{fields, {"volume", "m3", FieldShape::scalar, "volume; in 2D per metre of width"}};
-  Scalar initial_volume{fields, {"initial_volume", "m3"}};
-  VectorField position{fields, {"position", "m", FieldShape::vector}};  // relative to the domain's lower corner
-  VectorField velocity{fields, {"velocity", "m/s", FieldShape::vector, "velocity"}};
-  // C of APIC: the velocity around the particle is v + C (x - x_p); by columns
-  Field<double, Dim * Dim> affine_velocity{fields, {"affine_velocity", "1/s", FieldShape::matrix}};
-  VectorField displacement{fields, {"displacement", "m", FieldShape::vector, "displacement since t = 0"}};
-  Scalar path_length{fields, {"path_length", "m", FieldShape::scalar, "length of the path travelled"}};
-  TensorField stress{
-      fields, {"stress", "Pa", FieldShape::tensor, "stress without viscous stress, tension positive"}};
-  TensorField viscous_stress{fields, {"viscous_stress", "Pa", FieldShape::tensor}};
-  Scalar plastic_strain{fields, {"plastic_strain", "1", FieldShape::scalar, "accumulated equivalent plastic strain"}};
-  Scalar gap{fields, {"gap", "1", FieldShape::scalar,
-                      "volumetric strain of gaps that have not closed yet, with `gaps_close_first`"}};
-  Scalar temperature{fields, {"temperature", "C", FieldShape::scalar, "temperature"}};
-  Scalar heat_content{fields, {"heat_content", "J/m3"}};     // per initial volume, 0 for frozen material at Tref
-  Scalar initial_heat_content{fields, {"initial_heat_content", "J/m3"}};
-  Scalar liquid_saturation{fields, {"liquid_saturation", "1", FieldShape::scalar, "liquid saturation S"}};
-  Scalar porosity{fields, {"porosity", "1", FieldShape::scalar, "porosity n"}};
-  Scalar initial_porosity{fields, {"initial_porosity", "1"}};
-  Scalar initial_saturation{fields, {"initial_saturation", "1"}};
-  Scalar ice_pressure{fields, {"ice_pressure", "Pa", FieldShape::scalar, "ice pressure P_I"}};
-  Scalar liquid_pressure{fields, {"liquid_pressure", "Pa", FieldShape::scalar, "liquid pressure P_L"}};
-  Scalar pore_pressure{fields, {"pore_pressure", "Pa", FieldShape::scalar, "pore pressure P of Eq. 21"}};
-  Scalar pore_void{fields, {"pore_void", "1"}};              // left by the water after melting, fraction of volume
-  Scalar normal_load{fields, {"normal_load", "Pa"}};         // N of the column above
-  Scalar seeped_water{fields, {"seeped_water", "kg"}};       // net water gained by seepage
-  Scalar flow_depth{fields, {"flow_depth", "m"}};            // H of P_I = rho_I g H
-  Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};  // current xi
-  Scalar contact_offset{fields, {"contact_offset", "m"}};    // distance from the ground at which it touches
-  Scalar slip{fields, {"slip", "m", FieldShape::scalar, "slip along the ground, accumulated"}};
-  Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, "1 in the band, otherwise 0"}};
-  // Deformation F in the horizontal plane, at constant height above the ground; by columns (mpm/splitting.hpp)
-  Field<double, (Dim - 1) * (Dim - 1)> surface_stretch{fields, {"surface_stretch", "1", FieldShape::matrix}};
-  Field<std::int64_t, 1> parent_id{
-      fields, {"parent_id", "1", FieldShape::scalar,
-               "with `split_stretched`: number of the particle from which it was split, otherwise its own number", true,
-               true}};
-  // Within a step only: displacement and its volumetric strain, temperature before the step, secant capacity, changes
-  // by conduction and seepage within the cell, and change of N.
-  VectorField step_displacement{fields, {"step_displacement", "m", FieldShape::vector, nullptr, false}};
-  Scalar volume_strain{fields, {"volume_strain", "1", FieldShape::scalar, nullptr, false}};
-  Scalar previous_temperature{fields, {"previous_temperature", "C", FieldShape::scalar, nullptr, false}};
-  Scalar secant_capacity{fields, {"secant_capacity", "J/m3/K", FieldShape::scalar, nullptr, false}};
-  Scalar conduction_in_cell{fields, {"conduction_in_cell", "K", FieldShape::scalar, nullptr, false}};
-  Scalar seepage_in_cell{fields, {"seepage_in_cell", "Pa", FieldShape::scalar, nullptr, false}};
-  Scalar load_change{fields, {"load_change", "Pa", FieldShape::scalar, nullptr, false}};
-  // With ground (mpm/mapping.hpp): vertical height above it, and its slope below
-  Scalar height_above_ground{fields, {"height_above_ground", "m", FieldShape::scalar, nullptr, false}};
-  Field<double, Dim - 1> ground_slope{fields, {"ground_slope", "1", FieldShape::vector, nullptr, false}};
-  // The same by linear shape functions
-  Field<double, Dim - 1> linear_slope{fields, {"linear_slope", "1", FieldShape::vector, nullptr, false}};
-  // clang-format on
+#define THAWSLIDE_FIELD(Type, Components, name, ...) Field<Type, Components> name{fields, {#name, __VA_ARGS__}};
+  THAWSLIDE_PARTICLE_FIELDS(THAWSLIDE_FIELD)
+#undef THAWSLIDE_FIELD
 
   Particles() = default;
   Particles(const Particles&) = delete;
@@ -148,9 +90,9 @@ class Particles {
 
 // Particle tensor as a full six-component tensor; plane strain has zz but no yz, xz.
 template <int Dim>
-SymmetricTensor<double> full_tensor(const typename Particles<Dim>::TensorField& field, std::size_t particle) {
+SymmetricTensor<double> full_tensor(const Field<double, tensor_components<Dim>>& field, std::size_t particle) {
   SymmetricTensor<double> s = SymmetricTensor<double>::Zero();
-  for (int c = 0; c < Particles<Dim>::tensor_components; ++c) {
+  for (int c = 0; c < tensor_components<Dim>; ++c) {
     s[c] = field(particle, c);
   }
   return s;

@@ -58,7 +58,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   setup_.model = model;
   seed();
   for (std::size_t p = 0; p < slide_->particles.size(); ++p) {
-    for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
+    for (int c = 0; c < mpm::tensor_components<Dim>; ++c) {
       slide_->particles.stress(p, c) = settled[static_cast<std::size_t>(slide_->particles.id(p))][c];
     }
   }

@@ -29,7 +29,7 @@ void fill_new(const std::vector<NewParticle<Dim>>& joining, std::size_t first, s
     particles.porosity(p) = particles.initial_porosity(p) = one.porosity;
     particles.flow_depth(p) = one.flow_depth;
     particles.thermal_scaling(p) = 1.0;
-    for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
+    for (int c = 0; c < mpm::tensor_components<Dim>; ++c) {
       particles.stress(p, c) = one.stress[c];
     }
   }

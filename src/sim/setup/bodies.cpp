@@ -348,7 +348,7 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     }
     const auto stress =
         initial_stress(parameters, model, seed, density, parameters.materials.at(body.material).poisson_ratio);
-    for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
+    for (int c = 0; c < mpm::tensor_components<Dim>; ++c) {
       particles.stress(p, c) = stress[c];
     }
   }

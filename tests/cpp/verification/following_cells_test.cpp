@@ -115,7 +115,7 @@ class RandomParticles {
       for (int a = 0; a < Dim; ++a) {
         particles.displacement(p, a) = number(random);
       }
-      for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
+      for (int c = 0; c < mpm::tensor_components<Dim>; ++c) {
         particles.stress(p, c) = number(random);
       }
     }
