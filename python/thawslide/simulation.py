@@ -101,7 +101,7 @@ def print_message(line: str) -> None:
 
 
 class Simulation:
-    """A simulation in memory. Steps and history are those of `thawslide run` for the same case, bit for bit.
+    """A simulation in memory. Steps and history are those of `thawslide run` for the same case and device, bit for bit.
 
     The steps run without the GIL. Ctrl-C stops them between two steps with KeyboardInterrupt; the simulation remains
     usable. A failed step raises RunError, after which no step is possible.
@@ -112,6 +112,7 @@ class Simulation:
         case: Case | str | PathLike[str],
         *,
         threads: int = 0,
+        device: str = "cpu",
         on_message: Callable[[str], None] = print_message,
         basal_law: BasalLaw | None = None,
     ) -> None:
@@ -123,6 +124,8 @@ class Simulation:
             The case, its file or its folder.
         threads : int
             Threads to use at most; 0: the cores that this process may use.
+        device : str
+            "cpu", "gpu" or "auto".
         on_message : callable
             Receives warnings and notes as lines.
         basal_law : callable, optional
@@ -134,9 +137,12 @@ class Simulation:
         Raises
         ------
         UserError
-            For an invalid case, and for a basal law in a case without terrain or mechanics.
+            For an invalid case, for a basal law in a case without terrain or mechanics, and for a GPU that cannot be
+            used.
         RunError
             If settling fails.
+        DeviceError
+            If the GPU fails.
 
         Examples
         --------
@@ -151,7 +157,7 @@ class Simulation:
         self.threads = threads
         self._messages = _Messages(on_message)
         with errors_with_parameters():
-            self._core = _core.make_live_run(self.case._core, self._messages, threads)
+            self._core = _core.make_live_run(self.case._core, device, threads, self._messages)
         self._failed = False
         if basal_law is not None and not self._core.has_basal_law:
             raise _core.UserError(
@@ -278,7 +284,7 @@ class Simulation:
 
         Raises
         ------
-        UserError, RunError, KeyboardInterrupt
+        UserError, RunError, DeviceError, KeyboardInterrupt
             As `run`.
 
         """
@@ -314,6 +320,8 @@ class Simulation:
             For a callback without an interval, and for an interval without a callback.
         RunError
             If a step fails, after which no step is possible.
+        DeviceError
+            If the GPU fails, likewise.
         KeyboardInterrupt
             At Ctrl-C; the simulation remains usable.
 
@@ -393,6 +401,7 @@ class Simulation:
         while self.time < until and self.step_number < last and not self.is_done:
             try:
                 self._core.advance(until, last - self.step_number, _CHUNK, self.threads, self._law)
-            except (RuntimeError, MemoryError):
-                self._failed = self._law is None or self._law.is_evaluated
+            except (RuntimeError, MemoryError) as error:
+                of_device = isinstance(error, _core.DeviceError)
+                self._failed = of_device or self._law is None or self._law.is_evaluated
                 raise

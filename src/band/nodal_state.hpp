@@ -1,5 +1,5 @@
 // Temperature and pore pressure of a node, from sums over particles. For host and device. Nodes: access to their
-// records (mpm/step_passes.hpp, device/node_memory.hpp).
+// records (mpm/nodes.hpp, device/node_access.hpp).
 #pragma once
 
 #include "band/heat_face.hpp"

@@ -18,7 +18,7 @@ struct PackColumns {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   static constexpr auto of_contact = static_cast<std::size_t>(mpm::Contact::size<Dim>);
 
-  NodeViews<Dim> nodes;
+  ContactNodes<Dim> nodes;
   const std::uint32_t* blocks;
   double* records;
 
@@ -26,11 +26,11 @@ struct PackColumns {
     const std::size_t node = blocks[k / block_nodes] * block_nodes + k % block_nodes;
     double* record = records + k * column_record_size<Dim>;
     for (std::size_t c = 0; c < of_contact; ++c) {
-      record[c] = nodes.contact_at(node)[c];
+      record[c] = nodes.template read<mpm::Contact>(node)[c];
     }
-    record[of_contact] = nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass];
+    record[of_contact] = nodes.template read<mpm::Momentum>(node)[mpm::MomentumLayout<Dim>::mass];
     for (std::size_t a = 0; a < Dim; ++a) {
-      record[of_contact + 1 + a] = nodes.motion_at(node)[mpm::MotionLayout<Dim>::middle_velocity + a];
+      record[of_contact + 1 + a] = nodes.template read<mpm::Motion>(node)[mpm::MotionLayout<Dim>::middle_velocity + a];
     }
   }
 };
@@ -60,7 +60,7 @@ class BandColumns {
   }
 
   // Call after contact has been resolved.
-  void follow(const NodeViews<Dim>& nodes) {
+  void follow(const ContactNodes<Dim>& nodes) {
     if (exist()) {
       backend_.for_each(queried_.size() * PackColumns<Dim>::block_nodes,
                         PackColumns<Dim>{nodes, queried_.data(), records_.data()});

@@ -75,7 +75,7 @@ class ErodibleBed : public terrain::BedStage<Backend, Dim> {
   // Marks the parts of the bed that particles cover, and distributes it over the candidate nodes. Call after the basal
   // law has been evaluated.
   void update(const TileTables<Dim>& tables, const mpm::ParticleView<Dim>& particles, const mpm::SizesOfBodies& sizes,
-              double cell, const NodeViews<Dim>& nodes, const std::uint32_t* candidates) {
+              double cell, const ContactNodes<Dim>& nodes, const std::uint32_t* candidates) {
     this->executor_.for_each(tables.particles,
                              CoverBed<Dim>{tables, particles, sizes, cell, this->bed_.columns(), covered_.data()});
     this->executor_.for_each(parts_.size(), PackParts<Dim>{columns_on_device_.data(), covered_.data(), parts_.data()});

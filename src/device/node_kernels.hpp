@@ -4,79 +4,13 @@
 
 #include <limits>
 
+#include "device/node_access.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
-#include "mpm/records.hpp"
 #include "mpm/section_width.hpp"
 #include "terrain/contact_stage.hpp"
 
 namespace thawslide::device {
-
-// Records of nodes, accessed by the node's number over all blocks.
-template <int Dim>
-struct NodeViews {
-  double *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
-  const terrain::GroundAtNode<Dim>* known;  // null: no ground
-
-  [[nodiscard]] THAWSLIDE_HD static std::size_t node(std::size_t block, std::size_t in_block) {
-    return block * static_cast<std::size_t>(mpm::Tile<Dim>::nodes) + in_block;
-  }
-  template <class Name>
-  [[nodiscard]] THAWSLIDE_HD static double* record(double* numbers, std::size_t node) {
-    return numbers + node * mpm::record_size(mpm::components_of<Name, Dim>);
-  }
-  [[nodiscard]] THAWSLIDE_HD double* averages_at(std::size_t node) const {
-    return record<mpm::Averages>(averages, node);
-  }
-  [[nodiscard]] THAWSLIDE_HD double* state_at(std::size_t node) const { return record<mpm::NodalState>(state, node); }
-  [[nodiscard]] THAWSLIDE_HD double* momentum_at(std::size_t node) const {
-    return record<mpm::Momentum>(momentum, node);
-  }
-  [[nodiscard]] THAWSLIDE_HD double* near_ground_at(std::size_t node) const {
-    return record<mpm::NearGround>(near_ground, node);
-  }
-  [[nodiscard]] THAWSLIDE_HD double* base_at(std::size_t node) const { return base + node * base_size; }
-  [[nodiscard]] THAWSLIDE_HD double* contact_at(std::size_t node) const { return record<mpm::Contact>(contact, node); }
-  [[nodiscard]] THAWSLIDE_HD double* motion_at(std::size_t node) const { return record<mpm::Motion>(motion, node); }
-  [[nodiscard]] THAWSLIDE_HD double* velocity_at(std::size_t node) const {
-    return record<mpm::Velocity>(velocity, node);
-  }
-
-  static constexpr std::size_t base_size = mpm::BaseLayout::size;
-};
-
-// Position [m, relative to the domain's lower corner] of a node, by its number over all blocks.
-template <int Dim>
-THAWSLIDE_HD Vector<double, Dim> position_of_node(const std::uint64_t* block_keys, std::size_t node, double cell) {
-  using T = mpm::Tile<Dim>;
-  constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
-  const typename T::Index index =
-      T::node(T::index(block_keys[node / block_nodes]), static_cast<int>(node % block_nodes));
-  Vector<double, Dim> position;
-  for (int a = 0; a < Dim; ++a) {
-    position[a] = static_cast<double>(index[static_cast<std::size_t>(a)]) * cell;
-  }
-  return position;
-}
-
-// Prescribed motion at one node; as mpm::NodeConstraints.
-template <int Dim>
-struct WallsOfNode {
-  const mpm::PrescribedMotion<Dim>& motion;
-  Vector<double, Dim> position;
-  double time;
-  bool holds;  // the node belongs to a held body
-
-  [[nodiscard]] THAWSLIDE_HD bool any() const { return holds || motion.may_apply(position, position, time); }
-  [[nodiscard]] THAWSLIDE_HD bool is_held() const { return holds; }
-  THAWSLIDE_HD bool apply(double mass, Vector<double, Dim>& momentum) const {
-    if (holds) {
-      momentum.setZero();
-      return false;
-    }
-    return motion.apply(position, mass, time, momentum);
-  }
-};
 
 // Arguments common to all node kernels of a step.
 template <int Dim>
@@ -85,7 +19,8 @@ struct NodeStageArgs {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   TileTables<Dim> tables;
-  NodeViews<Dim> nodes;
+  ContactNodes<Dim> nodes;
+  const terrain::GroundAtNode<Dim>* known;  // ground by node; null if there is none
   mpm::PrescribedMotion<Dim> motion;
   Vector<double, Dim> gravity;
   double cell, time, dt;
@@ -93,13 +28,12 @@ struct NodeStageArgs {
   std::uint64_t first_held_layer;  // of the grid, and those after it
   mpm::WidthView width;
 
-  [[nodiscard]] THAWSLIDE_HD WallsOfNode<Dim> walls(std::size_t node) const {
-    const bool holds = mpm::Tile<Dim>::layer(tables.block_keys[node / block_nodes]) >= first_held_layer;
-    return {motion, position_of_node<Dim>(tables.block_keys, node, cell), time, holds};
+  [[nodiscard]] THAWSLIDE_HD mpm::NodeConstraints<Dim> walls(std::size_t node) const {
+    const bool held = mpm::Tile<Dim>::layer(tables.block_keys[node / block_nodes]) >= first_held_layer;
+    const Vector<double, Dim> position = position_of_node<Dim>(tables.block_keys, node, cell);
+    return {motion, position, time, held, motion.may_apply(position, position, time)};
   }
-  [[nodiscard]] THAWSLIDE_HD const terrain::GroundAtNode<Dim>& ground(std::size_t node) const {
-    return nodes.known[node];
-  }
+  [[nodiscard]] THAWSLIDE_HD const terrain::GroundAtNode<Dim>& ground(std::size_t node) const { return known[node]; }
   [[nodiscard]] THAWSLIDE_HD double space(std::size_t node) const {
     return (Dim == 2 ? width.at(position_of_node<Dim>(tables.block_keys, node, cell)[0]) : cell) * cell * cell;
   }
@@ -122,9 +56,9 @@ struct PressOnGround {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t node = candidates[k];
-    double* base = step.nodes.base_at(node);
-    base[mpm::BaseLayout::load] = terrain::load_on_ground(step, node);
-    base[mpm::BaseLayout::covered] = terrain::covered_ground(step, node);
+    double* base = step.nodes.template write<mpm::BaseLoad>(node);
+    base[mpm::BaseLoad::load] = terrain::load_on_ground(step, node);
+    base[mpm::BaseLoad::covered] = terrain::covered_ground(step, node);
   }
 };
 template <int Dim>
@@ -163,15 +97,15 @@ struct ResolveContact {
   NodeStageArgs<Dim> step;
   const std::int32_t* number;  // by node, index among candidates; null: no ground
   const terrain::BasalNode* bases;
+  const double* strengths;  // by candidate [Pa], in place of those of the laws; null: none
   physics::FrictionClamp clamp;
   bool cap_pressure;
   double heat_fraction;
   Beds beds;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
-    const NodeViews<Dim>& nodes = step.nodes;
-    double* contact = nodes.contact_at(node);
-    clear<mpm::Motion>(nodes.motion_at(node));
+    double* contact = step.nodes.template write<mpm::Contact>(node);
+    clear<mpm::Motion>(step.nodes.template write<mpm::Motion>(node));
     clear<mpm::Contact>(contact);
     const std::int32_t candidate = number != nullptr ? number[node] : absent;
     contact[mpm::Contact::candidate] = candidate != absent ? 1.0 : 0.0;
@@ -210,8 +144,9 @@ struct ResolveContact {
   }
   THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, terrain::NodeState<Dim>& state, Sum& work) const {
     const terrain::BasalNode& base = bases[candidate];
-    const double strength =
-        step.options.base_is_fixed ? std::numeric_limits<double>::infinity() : base.strength(clamp, cap_pressure);
+    const double strength = step.options.base_is_fixed ? std::numeric_limits<double>::infinity()
+                            : strengths != nullptr     ? strengths[candidate]
+                                                       : base.strength(clamp, cap_pressure);
     terrain::touch_ground(step, node, base, strength, heat_fraction,
                           beds.below(candidate, base.area, strength, step.dt, state.mass), state, work);
   }
@@ -225,7 +160,8 @@ struct MapBack {
   NodeStageArgs<Dim> step;
 
   THAWSLIDE_HD void operator()(std::size_t node, double& work) const {
-    work += terrain::map_back_node(step, node, step.nodes.contact_at(node)[mpm::Contact::touching] > 0.0, step.gravity);
+    work += terrain::map_back_node(
+        step, node, step.nodes.template read<mpm::Contact>(node)[mpm::Contact::touching] > 0.0, step.gravity);
   }
 };
 

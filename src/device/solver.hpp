@@ -12,6 +12,7 @@
 #include "mpm/front.hpp"
 #include "mpm/monitor_sums.hpp"
 #include "mpm/particle_view.hpp"
+#include "terrain/strength_law.hpp"
 
 namespace thawslide::device {
 
@@ -30,8 +31,8 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  // Advances the solution by dt [s], from time [s].
-  virtual StepSums<Dim> step(double time, double dt) = 0;
+  // Advances the solution by dt [s], from time [s]. strength: replaces the basal laws of the case; or null.
+  virtual StepSums<Dim> step(double time, double dt, const terrain::StrengthLaw* strength) = 0;
   // Extremes that determine the first step; those of later ones are among the sums of the step before.
   virtual band::StepExtremes extremes() = 0;
   // Monitor sums over the particles after a step.
@@ -44,6 +45,8 @@ class Solver {
   virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) = 0;
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
   virtual std::vector<Vector<double, Dim>> escaped_positions() = 0;
+  // Copies the keys of the blocks, and the records of Momentum of their nodes after a step.
+  virtual void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) = 0;
   // Sorts particles in memory into canonical order. Does not affect results.
   virtual void sort_in_memory() = 0;
   // Copies to the same number of particles, in their original order.

@@ -18,7 +18,9 @@ class SolverImpl final : public Solver<Dim> {
              HostCallbacks<Dim> callbacks, Words&&... backend)
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(callbacks)) {}
 
-  StepSums<Dim> step(double time, double dt) override { return step_.step(time, dt); }
+  StepSums<Dim> step(double time, double dt, const terrain::StrengthLaw* strength) override {
+    return step_.step(time, dt, strength);
+  }
   band::StepExtremes extremes() override { return step_.extremes(); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
   void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
@@ -27,6 +29,9 @@ class SolverImpl final : public Solver<Dim> {
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override { return step_.front(path, mass); }
   std::vector<Vector<double, Dim>> escaped_positions() override { return step_.escaped_positions(); }
+  void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) override {
+    step_.copy_momentum_to(blocks, records);
+  }
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { step_.copy_to(particles); }
   void time_stages() override { backend_.time_stages(); }

@@ -11,16 +11,17 @@
 #include "device/deform_material.hpp"
 #include "device/erodible_bed.hpp"
 #include "device/escape_check.hpp"
+#include "device/given_strengths.hpp"
 #include "device/ground.hpp"
 #include "device/maps.hpp"
 #include "device/node_kernels.hpp"
 #include "device/position_kernels.hpp"
 #include "device/reductions.hpp"
 #include "device/step_passes.hpp"
-#include "device/velocity_filter.hpp"
 #include "mpm/body_contact.hpp"
 #include "mpm/front_stage.hpp"
-#include "mpm/motion_kernels.hpp"
+#include "mpm/motion_stages.hpp"
+#include "mpm/velocity_filter.hpp"
 #include "terrain/band_marks_kernel.hpp"
 
 namespace thawslide::device {
@@ -77,6 +78,10 @@ class Step {
 
   // Copies to the same number of particles, in their original order.
   void copy_to(const mpm::ParticleView<Dim>& particles) { passes_.particles.copy_to(particles); }
+  void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) {
+    blocks = passes_.cells.block_keys();
+    records = passes_.template of<mpm::Momentum>().get();
+  }
   [[nodiscard]] TileTables<Dim> tables() const { return passes_.cells.tables(); }
 
   // Sorts particles in memory into canonical order. Does not affect results.
@@ -86,8 +91,8 @@ class Step {
     passes_.cells.store_memory_order();
   }
 
-  // Advances the solution by dt [s], from time [s].
-  Sums step(double time, double dt) {
+  // Advances the solution by dt [s], from time [s]. strength: replaces the basal laws of the case; or null.
+  Sums step(double time, double dt, const terrain::StrengthLaw* strength) {
     passes_.backend.for_each(1, Fill<Sums>{sums_.data(), {}});
     set_layers(time);
     find_cells();
@@ -100,7 +105,7 @@ class Step {
       passes_.backend.end_stage("average_band_on_grid");
     }
     if (passes_.model.moves) {
-      step_mechanics(time, dt);
+      step_mechanics(time, dt, strength);
     }
     if (passes_.model.rescales_band && !passes_.model.band.rescaling_mixes) {
       band_.rescale(time);
@@ -144,7 +149,7 @@ class Step {
   }
 
  private:
-  using ContactOfBodies = mpm::BodyContactArgs<NodeViews<Dim>, Dim>;
+  using ContactOfBodies = mpm::BodyContactArgs<device::ContactNodes<Dim>, Dim>;
 
   void set_layers(double time) {
     if (passes_.model.layers_of_bodies) {
@@ -184,14 +189,16 @@ class Step {
       if (bed_) {
         bed_->update(blocks, passes_.ground);
       }
-      passes_.nodes.clear_base(nodes);
+      exec::Array<double, Backend>& base = passes_.template of<mpm::BaseLoad>();
+      base.resize(nodes * mpm::record_size(mpm::components_of<mpm::BaseLoad, Dim>));
+      passes_.backend.for_each(base.size(), Fill<double>{base.data(), 0.0});
       bases_.resize(passes_.ground.candidate_count());
     }
   }
-  void step_mechanics(double time, double dt) {
-    add_momentum();
+  void step_mechanics(double time, double dt, const terrain::StrengthLaw* strength) {
+    mpm::stages::momentum_to_grid<Dim>(passes_, passes_.model.motion, passes_.width(), force_of_walls_.data());
     passes_.backend.end_stage("momentum_to_grid");
-    resolve_contact(time, dt);
+    resolve_contact(time, dt, strength);
     passes_.backend.end_stage("resolve_contact");
     move(time, dt);
     passes_.backend.end_stage("move_particles");
@@ -199,24 +206,9 @@ class Step {
     passes_.backend.end_stage("update_stress_and_porosity");
   }
 
-  void add_momentum() {
-    const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
-    mpm::with_width<Dim>(passes_.width(), [&]<class Width>(const Width& width) {
-      using Kernel = mpm::AddMomentum<Dim, Width>;
-      const Kernel kernel{motion.gravity, motion.effective_stress, motion.viscous(), width};
-      if constexpr (Width::varies) {
-        passes_.total(passes_.momentum(), kernel, force_of_walls_.data());
-      } else {
-        passes_.run(passes_.momentum(), kernel);
-      }
-    });
-    passes_.if_affine(
-        [&](const auto& weights) { passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim>{}); });
-    passes_.template sum<mpm::Momentum, void>(AllTiles{});
-  }
-
-  void resolve_contact(double time, double dt) {
+  void resolve_contact(double time, double dt, const terrain::StrengthLaw* strength) {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
+    const double* strengths = nullptr;
     if (passes_.model.between_bodies.any()) {
       body_contact_.add_forces(between_bodies(dt));
     }
@@ -227,14 +219,17 @@ class Step {
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
                             band_columns_.states(), bases_.data());
+      if (strength != nullptr && !step.options.base_is_fixed) {
+        strengths = given_.by(*strength, passes_.model.base, step, passes_.ground, bases_);
+      }
     }
     if (bed_) {
       bed_->update(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.model.cell, step.nodes,
                    passes_.ground.candidates());
-      resolve_contact(step, bed_->below_nodes());
+      resolve_contact(step, strengths, bed_->below_nodes());
       bed_->collect(dt);
     } else {
-      resolve_contact(step, NoBeds{});
+      resolve_contact(step, strengths, NoBeds{});
     }
     band_columns_.follow(step.nodes);
     if (passes_.ground.exists()) {
@@ -245,13 +240,13 @@ class Step {
   }
 
   template <class Beds>
-  void resolve_contact(const NodeStageArgs<Dim>& step, const Beds& beds) {
+  void resolve_contact(const NodeStageArgs<Dim>& step, const double* strengths, const Beds& beds) {
     const std::size_t blocks = step.tables.blocks;
     passes_.keep(block_pass<Dim>(
                      passes_.backend, blocks,
                      ResolveContact<Beds, Dim>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
-                                               bases_.data(), passes_.model.base.clamp, passes_.model.base.cap_pressure,
-                                               passes_.model.base.heat_fraction, beds},
+                                               bases_.data(), strengths, passes_.model.base.clamp,
+                                               passes_.model.base.cap_pressure, passes_.model.base.heat_fraction, beds},
                      passes_.memory.template sums<terrain::ContactWork<Dim>>(partial_sum_count(blocks))),
                  &sums_.data()->contact);
     if (passes_.model.width.varies()) {  // the walls are part of the ground
@@ -260,19 +255,10 @@ class Step {
   }
 
   void move(double time, double dt) {
-    using Kernel = mpm::Move<Dim>;
-    passes_.keep(&passes_
-                      .run(passes_.momentum(),
-                           Kernel{passes_.model.motion.is_affine() ? 1.0 : passes_.model.motion.pic_fraction, dt})
-                      ->template of<Kernel>(),
-                 &sums_.data()->particle_kinetic);
-    passes_.if_affine([&](const auto& weights) {
-      using Affine = mpm::MoveAffine<Dim>;
-      const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
-      passes_.backend.for_each(1, Add<double>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
-    });
-    if (passes_.model.motion.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
-      filter_velocities(passes_, &sums_.data()->filtered);
+    const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
+    mpm::stages::move_particles<Dim>(passes_, motion, dt, &sums_.data()->particle_kinetic);
+    if (motion.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
+      mpm::stages::filter_velocities<Dim>(passes_, motion.filter_order, &sums_.data()->filtered);
     }
     passes_.keep(passes_.template solve<mpm::Velocity>(nullptr, MapBack<Dim>{passes_.nodes_in_step(time, dt)}),
                  &sums_.data()->mapped_back);
@@ -292,7 +278,7 @@ class Step {
             passes_.model.contact.mass_damping,
             dt,
             passes_.model.motion.gravity,
-            passes_.views()};
+            passes_.contact_nodes()};
   }
 
   void update_stress(double dt) {
@@ -302,10 +288,10 @@ class Step {
         std::visit(
             [&]<class Law>(const Law& law) {
               using Kernel = DeformMaterial<Dim, Law, Width>;
-              const auto* all =
-                  passes_.run(passes_.momentum(), Kernel{law, material, motion.phases, motion.effective_stress, dt,
-                                                         width, number, motion.materials.size() == 1});
-              passes_.backend.for_each(1, Add<mpm::Deformed>{&all->template of<Kernel>(), &sums_.data()->deformed});
+              passes_.add_total(passes_.momentum(),
+                                Kernel{law, material, motion.phases, motion.effective_stress, dt, width, number,
+                                       motion.materials.size() == 1},
+                                &sums_.data()->deformed);
             },
             material.law);
         ++number;
@@ -362,6 +348,7 @@ class Step {
   std::optional<ErodibleBed<Backend, Dim>> bed_;  // none without an erodible bed
   exec::Array<double, Backend> column_heights_{passes_.backend};
   exec::Array<double, Backend> free_gaps_{passes_.backend};
+  GivenStrengths<Backend, Dim> given_{passes_.backend};
   exec::Array<terrain::BasalNode, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   mpm::Front<Backend, Dim> front_{passes_.backend};

@@ -6,6 +6,7 @@
 #include "device/cells.hpp"
 #include "device/ground.hpp"
 #include "device/marks.hpp"
+#include "device/node_kernels.hpp"
 #include "device/node_memory.hpp"
 #include "device/particles.hpp"
 #include "device/reductions.hpp"
@@ -111,13 +112,6 @@ class StepPasses {
   [[nodiscard]] mpm::WidthView width() const { return {places_.data(), relative_widths_.data(), places_.size()}; }
   [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
   [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.motion.sides}; }
-  // Calls work(weights) with the weights of APIC if the model uses it.
-  template <class Work>
-  void if_affine(const Work& work) const {
-    if (model.motion.is_affine()) {
-      work(AffineWeights<Shape, Dim>{weights()});
-    }
-  }
   // Pass arguments with linear shape functions, or with those of momentum.
   template <class TileFilter = AllTiles>
   [[nodiscard]] auto linear(const TileFilter& accepts = {}) const {
@@ -127,6 +121,7 @@ class StepPasses {
   [[nodiscard]] auto momentum(const TileFilter& accepts = {}) const {
     return over(weights(), accepts);
   }
+  [[nodiscard]] auto affine() const { return over(AffineWeights<Shape, Dim>{weights()}, AllTiles{}); }
   template <class Weights, class TileFilter>
   [[nodiscard]] PassOver<Weights, TileFilter, Dim> over(const Weights& weights, const TileFilter& accepts) const {
     return {cells.tables(), particles.view(), weights, accepts, model.cell, model.mapping};
@@ -138,6 +133,18 @@ class StepPasses {
   template <class Over, class Kernel>
   void total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
     keep(&run(over, kernel)->template of<Kernel>(), to);
+  }
+  template <class Over, class Kernel>
+  void add_total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
+    backend.for_each(1, Add<typename Kernel::Totals>{&run(over, kernel)->template of<Kernel>(), to});
+  }
+  template <class... Names>
+  void resize_records() {
+    nodes.template resize_for<Names...>(cells.tables().blocks * block_nodes);
+  }
+  template <class Name>
+  void sum_all() {
+    sum<Name, void>(AllTiles{});
   }
   // blocks: marks of those to sum at; null: all.
   template <class Name, class MinReduced, class TileFilter>
@@ -198,13 +205,18 @@ class StepPasses {
   }
   [[nodiscard]] auto node_access() {
     return nodes.template access<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::Contact, mpm::HeatRates,
-                                 mpm::SecantRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater>(
+                                 mpm::SecantRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater,
+                                 mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
         cells.tables().block_keys, model.cell);
   }
-  [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
+  [[nodiscard]] ContactNodes<Dim> contact_nodes() {
+    return nodes.template access<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::BaseLoad,
+                                 mpm::Contact, mpm::Motion, mpm::Velocity>(cells.tables().block_keys, model.cell);
+  }
   [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(double time, double dt) {
     return {cells.tables(),
-            views(),
+            contact_nodes(),
+            ground.exists() ? ground.known() : nullptr,
             {model.faces, frames_.data(), frames_.size()},
             model.motion.gravity,
             model.cell,

@@ -40,9 +40,11 @@ struct BoxEdge {
   std::uint32_t particle;
 };
 
-// Arguments common to all kernels. Nodes: access to nodal records (terrain/contact_stage.hpp).
+// Arguments common to all kernels. Nodes: access to nodal records (mpm/nodes.hpp, device/node_access.hpp).
 template <class Nodes, int Dim>
 struct BodyContactArgs {
+  static constexpr auto block_nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
+
   TileTables<Dim> tables;
   ParticleView<Dim> particles;
   SizesOfBodies sizes;  // in cells
@@ -50,6 +52,11 @@ struct BodyContactArgs {
   double cell, mass_damping, dt;
   Vector<double, Dim> gravity;
   Nodes nodes;
+
+  template <class Node>
+  [[nodiscard]] THAWSLIDE_HD double mass(const Node& node) const {
+    return nodes.template read<Momentum>(node)[MomentumLayout<Dim>::mass];
+  }
 };
 
 // Nodes and particles of one body around a node of a block.
@@ -58,15 +65,12 @@ struct BodyAbout {
   using T = Tile<Dim>;
   using Index = typename T::Index;
   using Vec = Vector<double, Dim>;
-  static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes),
-                        stencil = static_cast<std::size_t>(T::stencil);
+  static constexpr auto stencil = static_cast<std::size_t>(T::stencil);
 
   const BodyContactArgs<Nodes, Dim>& args;
   std::size_t block;
 
-  [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
-    return args.nodes.momentum_at(Nodes::node(block, node))[MomentumLayout<Dim>::mass] > 0.0;
-  }
+  [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const { return args.mass(Nodes::node(block, node)) > 0.0; }
   // Volume [m3] at a node given relative to the block's first one; 0 if there is no block.
   [[nodiscard]] THAWSLIDE_HD double volume(const Index& node) const {
     Index tile{};
@@ -78,8 +82,8 @@ struct BodyAbout {
     const std::int32_t there = args.tables.blocks_about_block[block * stencil + static_cast<std::size_t>(direction)];
     return there == exec::absent
                ? 0.0
-               : args.nodes.momentum_at(Nodes::node(static_cast<std::size_t>(there),
-                                                    static_cast<std::size_t>(local)))[MomentumLayout<Dim>::volume];
+               : args.nodes.template read<Momentum>(Nodes::node(
+                     static_cast<std::size_t>(there), static_cast<std::size_t>(local)))[MomentumLayout<Dim>::volume];
   }
   // Change of volume over two cells around a node, along each axis.
   [[nodiscard]] THAWSLIDE_HD Vec change_about(const Index& node) const {
@@ -108,7 +112,7 @@ struct BodyAbout {
         first[a] = along > 1 ? along - 1 : 0;
         last[a] = along + 1 < T::edge ? along + 1 : T::edge - 1;
       }
-      const std::uint32_t* ranks = args.tables.first_of_cell + static_cast<std::size_t>(tile) * block_nodes;
+      const std::uint32_t* ranks = args.tables.first_of_cell + static_cast<std::size_t>(tile) * args.block_nodes;
       for (int z = first[2]; z <= last[2]; ++z) {
         for (int y = first[1]; y <= last[1] && first[0] <= last[0]; ++y) {
           const int row = (z * T::edge + y) * T::edge;  // cells of a row are consecutive
@@ -128,8 +132,8 @@ struct CountAtMeetings {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     using Body = BodyAbout<Nodes, Dim>;
-    const Body first{args, pairs[k / Body::block_nodes].block}, second{args, pairs[k / Body::block_nodes].other};
-    const std::size_t node = k % Body::block_nodes;
+    const Body first{args, pairs[k / args.block_nodes].block}, second{args, pairs[k / args.block_nodes].other};
+    const std::size_t node = k % args.block_nodes;
     std::uint32_t count = 0;
     const auto add = [&count](std::uint32_t from, std::uint32_t to) { count += to - from; };
     if (first.has_mass(node) && second.has_mass(node)) {
@@ -146,7 +150,6 @@ struct FindGaps {
   using T = Tile<Dim>;
   using Vec = Vector<double, Dim>;
   using Body = BodyAbout<Nodes, Dim>;
-  static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
   // Candidate normals of a node: from both bodies, the first, the second.
   static constexpr int kinds = 3;
   static constexpr std::size_t of_task = 16;
@@ -165,8 +168,8 @@ struct FindGaps {
     if (!meeting.in_contact) {
       return;
     }
-    const Body first{args, pairs[k / block_nodes].block}, second{args, pairs[k / block_nodes].other};
-    const std::size_t node = k % block_nodes;
+    const Body first{args, pairs[k / args.block_nodes].block}, second{args, pairs[k / args.block_nodes].other};
+    const std::size_t node = k % args.block_nodes;
     Vector<double, Dim - 1> slope = Vector<double, Dim - 1>::Zero(), other_slope = slope;
     BoxEdge* edges = all_edges + (before[k] - before[start]);
     BoxEdge* const other_edges = list(first, node, edges, slope);
@@ -294,18 +297,16 @@ template <class Nodes, int Dim>
 struct ExchangeMomentum {
   using Layout = MomentumLayout<Dim>;
   using Vec = Vector<double, Dim>;
-  static constexpr auto block_nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
-
   BodyContactArgs<Nodes, Dim> args;
   const BlockPair* pairs;
   const std::uint32_t* first_of_place;
   Meeting<Dim>* meetings;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    const std::size_t place = k / block_nodes, node = k % block_nodes;
+    const std::size_t place = k / args.block_nodes, node = k % args.block_nodes;
     for (std::size_t p = first_of_place[place]; p < first_of_place[place + 1]; ++p) {
-      if (meetings[p * block_nodes + node].in_contact) {
-        exchange(pairs[p], node, meetings[p * block_nodes + node]);
+      if (meetings[p * args.block_nodes + node].in_contact) {
+        exchange(pairs[p], node, meetings[p * args.block_nodes + node]);
       }
     }
   }
@@ -317,8 +318,8 @@ struct ExchangeMomentum {
                record[Layout::mass]);
   }
   THAWSLIDE_HD void exchange(const BlockPair& pair, std::size_t node, Meeting<Dim>& meeting) const {
-    double* first = args.nodes.momentum_at(Nodes::node(pair.block, node));
-    double* second = args.nodes.momentum_at(Nodes::node(pair.other, node));
+    double* first = args.nodes.template write<Momentum>(Nodes::node(pair.block, node));
+    double* second = args.nodes.template write<Momentum>(Nodes::node(pair.other, node));
     const Vec approach = trial_velocity(first) - (pair.other_is_held ? Vec(Vec::Zero()) : trial_velocity(second));
     const double closing = approach.dot(meeting.normal);
     const Vec slip = approach - closing * meeting.normal;
@@ -345,8 +346,6 @@ struct ExchangeMomentum {
 template <class Nodes, int Dim>
 struct SeparateMappedBack {
   using Vec = Vector<double, Dim>;
-  static constexpr auto block_nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
-
   BodyContactArgs<Nodes, Dim> args;
   const BlockPair* pairs;
   const std::uint32_t* first_of_place;
@@ -354,11 +353,11 @@ struct SeparateMappedBack {
   BodyContactWork* works;  // by place and node
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    const std::size_t place = k / block_nodes, node = k % block_nodes;
+    const std::size_t place = k / args.block_nodes, node = k % args.block_nodes;
     BodyContactWork work;
     for (std::size_t p = first_of_place[place]; p < first_of_place[place + 1]; ++p) {
-      if (meetings[p * block_nodes + node].in_contact) {
-        separate(pairs[p], node, meetings[p * block_nodes + node], work);
+      if (meetings[p * args.block_nodes + node].in_contact) {
+        separate(pairs[p], node, meetings[p * args.block_nodes + node], work);
       }
     }
     works[k] = work;
@@ -368,10 +367,9 @@ struct SeparateMappedBack {
   THAWSLIDE_HD void separate(const BlockPair& pair, std::size_t node, const Meeting<Dim>& meeting,
                              BodyContactWork& work) const {
     const auto first = Nodes::node(pair.block, node), second = Nodes::node(pair.other, node);
-    constexpr std::size_t at_mass = MomentumLayout<Dim>::mass;
-    const double mass = args.nodes.momentum_at(first)[at_mass], other_mass = args.nodes.momentum_at(second)[at_mass];
-    const Vec approach =
-        vector_at<Dim>(args.nodes.velocity_at(first), 0) - vector_at<Dim>(args.nodes.velocity_at(second), 0);
+    const double mass = args.mass(first), other_mass = args.mass(second);
+    const Vec approach = vector_at<Dim>(args.nodes.template read<Velocity>(first), 0) -
+                         vector_at<Dim>(args.nodes.template read<Velocity>(second), 0);
     const double closing = approach.dot(meeting.normal);
     const auto impulse = pair.other_is_held
                              ? physics::impulse_on_fixed_body(mass, closing, 0.0, meeting.gap, args.dt, 0.0)
@@ -384,12 +382,13 @@ struct SeparateMappedBack {
   template <class Node>
   THAWSLIDE_HD void change(const Node& node, double sign, double mass, double impulse, const Meeting<Dim>& meeting,
                            BodyContactWork& work) const {
-    double* velocity = args.nodes.velocity_at(node);
+    double* velocity = args.nodes.template write<Velocity>(node);
     const Vec before = vector_at<Dim>(velocity, 0);
     const Vec change = (sign * impulse / mass) * meeting.normal;
-    const Vec middle = vector_at<Dim>(args.nodes.motion_at(node), MotionLayout<Dim>::middle_velocity);
+    const Vec middle = vector_at<Dim>(args.nodes.template read<Motion>(node), MotionLayout<Dim>::middle_velocity);
     const Vec internal =
-        args.dt * (vector_at<Dim>(args.nodes.momentum_at(node), MomentumLayout<Dim>::force) - mass * args.gravity);
+        args.dt *
+        (vector_at<Dim>(args.nodes.template read<Momentum>(node), MomentumLayout<Dim>::force) - mass * args.gravity);
     set_vector<Dim>(velocity, 0, Vec(before + change));
     work.loss -= sign * meeting.impulse.dot(middle);
     work.numerical -= sign * meeting.impulse.dot(Vec(middle - before - change)) + internal.dot(change);

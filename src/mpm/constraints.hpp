@@ -27,21 +27,14 @@ class BlockConstraints {
         motion_(constraints.motion()),
         block_(block),
         time_(time),
-        is_held_(Tile<Dim>::layer(grid.blocks()[block]) >= constraints.first_held_layer),
-        any_(is_held_ ||
-             motion_.may_apply(node_position(grid, block, 0),
-                               node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1), time)) {}
+        held_(Tile<Dim>::layer(grid.blocks()[block]) >= constraints.first_held_layer),
+        may_apply_(motion_.may_apply(node_position(grid, block, 0),
+                                     node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1),
+                                     time)) {}
 
-  [[nodiscard]] bool any() const { return any_; }
-  // True for the nodes of held bodies, which are fixed.
-  [[nodiscard]] bool is_held() const { return is_held_; }
-  // Sets the prescribed components of the momentum of a node of the block; true if a frame has set one.
-  bool apply(std::size_t node, double mass, Vector<double, Dim>& momentum) const {
-    if (is_held_) {
-      momentum.setZero();
-      return false;
-    }
-    return any_ && motion_.apply(node_position(*grid_, block_, node), mass, time_, momentum);
+  [[nodiscard]] NodeConstraints<Dim> at(std::size_t node) const {
+    const Vector<double, Dim> unused = Vector<double, Dim>::Zero();
+    return {motion_, may_apply_ ? node_position(*grid_, block_, node) : unused, time_, held_, may_apply_};
   }
 
  private:
@@ -49,18 +42,7 @@ class BlockConstraints {
   PrescribedMotion<Dim> motion_;
   std::size_t block_;
   double time_;
-  bool is_held_, any_;
-};
-
-// Constraints at one node of a block.
-template <int Dim>
-struct NodeConstraints {
-  const BlockConstraints<Dim>& of_block;
-  std::size_t node;
-
-  [[nodiscard]] bool any() const { return of_block.any(); }
-  [[nodiscard]] bool is_held() const { return of_block.is_held(); }
-  bool apply(double mass, Vector<double, Dim>& momentum) const { return of_block.apply(node, mass, momentum); }
+  bool held_, may_apply_;
 };
 
 }  // namespace thawslide::mpm

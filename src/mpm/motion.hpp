@@ -21,19 +21,22 @@ struct MotionModel : MotionParameters<Dim> {
 template <int Dim>
 void split_total_stress(Particles<Dim>& particles, std::size_t first = 0);
 
-// Transfers particle mass, momentum, force (Eq. 12) and volume to the nodes. Returns the force of the walls along x [N]
-// if the section width varies.
+// mpm/motion_stages.hpp describes this stage and the next one. Returns the force of the walls along x [N], 0 if the
+// section width is uniform.
 template <int Dim>
 double momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
                         Nodes<Dim>& nodes);
 
-// Computes new velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign)
-// from nodal motion; then adds the particles' momentum to the patches of nodes.velocity (MUSL), without summing these.
-// update_positions applies the displacement. Returns the kinetic energy gained by particles minus sum p_i.dv_i over the
-// nodes [J]; sum m |dv_p|^2/2 in FLIP. Subtracting sum m_i |dv_i|^2/2 gives the energy created by the transfers.
+// Returns the kinetic energy gained by particles [J]. update_positions applies the displacement.
 template <int Dim>
 double move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, double dt,
                       Nodes<Dim>& nodes);
+
+// Filters the velocities with the order of the model (mpm/velocity_filter.hpp). Returns the kinetic energy gained by
+// particles [J].
+template <int Dim>
+double filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                         Nodes<Dim>& nodes);
 
 // Updates strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back
 // velocities.

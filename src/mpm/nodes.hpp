@@ -35,7 +35,7 @@ struct Nodes {
   RecordsOf<FilterIncrement, Dim> filter_increment;
   RecordsOf<FilterTotal, Dim> filter_total;
   // In blocks with candidate nodes.
-  SparseRecords<Dim, BaseLayout::size> base;
+  SparseRecordsOf<BaseLoad, Dim> base;
   SparseRecordsOf<Contact, Dim> contact;
   SparseRecordsOf<NearGround, Dim> near_ground{pool};
   SparseRecordsOf<UnreachedHeat, Dim> unreached_heat;
@@ -62,5 +62,32 @@ Vector<double, Dim> node_position(const SparseGrid<Dim>& grid, std::size_t block
   }
   return position;
 }
+
+// Records of a node, by name. device::NodeAccess has the same functions.
+template <int Dim>
+struct NodeAccess {
+  const SparseGrid<Dim>& grid;
+  Nodes<Dim>& nodes;
+
+  // Zeros in blocks without such records.
+  template <class Name>
+  [[nodiscard]] const double* read(const NodeAt& at) const {
+    return std::as_const(nodes.template of<Name>())(at).data();
+  }
+  // Null in blocks without such records.
+  template <class Name>
+  [[nodiscard]] double* write(const NodeAt& at) const {
+    auto& records = nodes.template of<Name>();
+    if constexpr (requires { records.contains(at.block); }) {
+      if (!records.contains(at.block)) {
+        return nullptr;
+      }
+    }
+    return records.of_block(at.block)[at.node].data();
+  }
+  [[nodiscard]] static NodeAt node(std::size_t block, std::size_t in_block) { return {block, in_block}; }
+  [[nodiscard]] static std::size_t block(const NodeAt& at) { return at.block; }
+  [[nodiscard]] Vector<double, Dim> position(const NodeAt& at) const { return node_position(grid, at.block, at.node); }
+};
 
 }  // namespace thawslide::mpm

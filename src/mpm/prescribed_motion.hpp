@@ -57,4 +57,25 @@ struct PrescribedMotion {
   }
 };
 
+// Constraints on one node in a step.
+template <int Dim>
+struct NodeConstraints {
+  const PrescribedMotion<Dim>& motion;
+  Vector<double, Dim> position;  // [m]
+  double time;                   // [s]
+  bool held;                     // the node belongs to a held body, which is fixed
+  bool may_apply;                // off: no motion is prescribed near the node, and the position is not used
+
+  [[nodiscard]] THAWSLIDE_HD bool any() const { return held || may_apply; }
+  [[nodiscard]] THAWSLIDE_HD bool is_held() const { return held; }
+  // Sets the prescribed components of the node's momentum; true if a frame has set one.
+  THAWSLIDE_HD bool apply(double mass, Vector<double, Dim>& momentum) const {
+    if (held) {
+      momentum.setZero();
+      return false;
+    }
+    return may_apply && motion.apply(position, mass, time, momentum);
+  }
+};
+
 }  // namespace thawslide::mpm

@@ -101,11 +101,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value gap_to_plane(const Value (&position)[
 }
 
 // Load of candidate nodes on the ground, and covered ground.
-struct BaseLayout {
+struct BaseLoad {
   // Trial momentum into the ground, minus the part that closes the clearance, times the bend of the ground [kg m/s].
   static constexpr std::size_t load = 0;
   static constexpr std::size_t covered = 1;  // covered part of the node's ground surface [m2]
+  template <int Dim>
   static constexpr int size = 2;
+  static auto& in(auto& nodes) { return nodes.base; }
 };
 
 // Results of contact at a node, for the stages after it.
@@ -145,6 +147,7 @@ struct BaseState {
   static constexpr std::size_t slip = 5;            // [m]
   template <int Dim>
   static constexpr int size = 6;
+  static auto& in(auto& nodes) { return nodes.base_state; }
 };
 
 // Nodal heat and pore pressure read by particles: averages, or a prescribed temperature, and their changes.

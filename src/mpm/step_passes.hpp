@@ -1,4 +1,4 @@
-// Passes of a stage that CPU and devices share (band/stages.hpp), on the CPU. device/step_passes.hpp provides the
+// Passes of the stages that CPU and devices share (mpm/motion_stages.hpp, band/stages.hpp), on the CPU. device/step_passes.hpp provides the
 // same functions.
 #pragma once
 
@@ -13,36 +13,10 @@
 
 namespace thawslide::mpm {
 
-// Records of a node, by name.
-template <int Dim>
-struct NodeAccess {
-  const SparseGrid<Dim>& grid;
-  Nodes<Dim>& nodes;
-
-  // Zeros in blocks without such records.
-  template <class Name>
-  [[nodiscard]] const double* read(const NodeAt& at) const {
-    return std::as_const(nodes.template of<Name>())(at).data();
-  }
-  // Null in blocks without such records.
-  template <class Name>
-  [[nodiscard]] double* write(const NodeAt& at) const {
-    auto& records = nodes.template of<Name>();
-    if constexpr (requires { records.contains(at.block); }) {
-      if (!records.contains(at.block)) {
-        return nullptr;
-      }
-    }
-    return records.of_block(at.block)[at.node].data();
-  }
-  [[nodiscard]] static std::size_t block(const NodeAt& at) { return at.block; }
-  [[nodiscard]] Vector<double, Dim> position(const NodeAt& at) const { return node_position(grid, at.block, at.node); }
-};
-
 template <int Dim>
 class StepPasses {
  public:
-  // weights: of momentum. All arguments must outlive it.
+  // weights: of momentum. All other arguments must outlive it.
   StepPasses(const SparseGrid<Dim>& grid, const MomentumWeights<Dim>& weights, Particles<Dim>& particles,
              Nodes<Dim>& nodes)
       : grid_(grid), weights_(weights), particles_(particles), nodes_(nodes) {}
@@ -55,11 +29,13 @@ class StepPasses {
   [[nodiscard]] static auto linear(const TileFilter& accepts = every_tile) {
     return std::pair{LinearWeights{}, accepts};
   }
-  template <class TileFilter>
-  [[nodiscard]] auto momentum(const TileFilter& accepts) const {
+  template <class TileFilter = decltype(every_tile)>
+  [[nodiscard]] auto momentum(const TileFilter& accepts = every_tile) const {
     return std::pair{weights_, accepts};
   }
-  // Runs a kernel over particles; `total` also stores its total.
+  // With the weights of APIC.
+  [[nodiscard]] auto affine() const { return std::pair{AffineWeights<Dim>{weights_}, every_tile}; }
+  // Runs a kernel over particles; `total` also stores its total, and `add_total` adds it.
   template <class Over, class Kernel>
   auto run(const Over& over, const Kernel& kernel) {
     return std::get<0>(particle_pass(grid_, over.first, particles_, nodes_, over.second, kernel));
@@ -67,6 +43,20 @@ class StepPasses {
   template <class Over, class Kernel>
   void total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
     *to = run(over, kernel);
+  }
+  template <class Over, class Kernel>
+  void add_total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
+    *to += run(over, kernel);
+  }
+
+  template <class... Names>
+  void resize_records() {
+    (nodes_.template of<Names>().resize(grid_.blocks().size()), ...);
+  }
+  // Sums the contributions of particles to all nodes.
+  template <class Name>
+  void sum_all() {
+    sum_patches(grid_, nodes_.template of<Name>());
   }
 
   // Total over nodes, accessed like a pointer to memory of a device.

@@ -10,15 +10,49 @@
 // filter is identical to theirs.
 #pragma once
 
-#include "mpm/motion.hpp"
+#include "mpm/filter_kernels.hpp"
+#include "mpm/filter_node.hpp"
 
-namespace thawslide::mpm {
+namespace thawslide::mpm::stages {
 
-// Applies the filter with the order of the model, after move_particles. The patches of nodes.velocity then contain the
-// momenta of the filtered velocities. Requires nodal masses (momentum_to_grid). Returns the kinetic energy gained by
+// Next increment of the rigid motion of each node. Nodes: access to their records by name.
+template <class Nodes, int Dim>
+struct MakeIncrements {
+  using Totals = NoTotals;
+
+  Nodes nodes;
+  bool first;
+  double least_square;
+
+  template <class Node>
+  THAWSLIDE_HD void operator()(const Node& node, Totals& /*totals*/) const {
+    double *increment = nodes.template write<FilterIncrement>(node), *total = nodes.template write<FilterTotal>(node);
+    make_increment<Dim>(first, least_square, nodes.template read<Momentum>(node),
+                        nodes.template read<FilterMoments>(node), nodes.template read<FilterMomentum>(node), increment,
+                        total);
+  }
+};
+
+// Applies the filter of an order, at least 1, after move_particles (mpm/motion_stages.hpp). The patches of Velocity
+// then contain the momenta of the filtered velocities. Requires nodal masses. gained: kinetic energy gained by
 // particles [J], at most 0.
-template <int Dim>
-double filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
-                         Nodes<Dim>& nodes);
+template <int Dim, class Passes>
+void filter_velocities(Passes& passes, int order, double* gained) {
+  passes.template resize_records<FilterMoments, FilterMomentum, FilterIncrement, FilterTotal>();
+  const auto make_increments = [&](bool first) {
+    using Nodes = decltype(passes.node_access());
+    passes.template solve<FilterMomentum>(
+        nullptr, MakeIncrements<Nodes, Dim>{passes.node_access(), first, least_square_of(passes.cell())});
+  };
+  passes.run(passes.momentum(), AddFilterMoments<Dim>{});
+  passes.template sum_all<FilterMoments>();
+  passes.run(passes.momentum(), AddFilterMomentum<Dim>{});
+  make_increments(true);
+  for (int done = 1; done < order; ++done) {
+    passes.run(passes.momentum(), SweepFilter<Dim>{});
+    make_increments(false);
+  }
+  passes.total(passes.momentum(), ApplyFiltered<Dim>{}, gained);
+}
 
-}  // namespace thawslide::mpm
+}  // namespace thawslide::mpm::stages

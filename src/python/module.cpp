@@ -39,7 +39,7 @@ namespace {
 
 // Calls a law with copies of the arrays of the nodes, and replaces their strengths by the array that it returns. The
 // caller does not hold the GIL. Exceptions of the law pass through the step.
-void replace_strengths(const nb::object& law, terrain::LoadedNodes& nodes) {
+void set_strengths(const nb::object& law, terrain::LoadedNodes& nodes) {
   const nb::gil_scoped_acquire gil;
   const std::size_t count = nodes.strength.size();
   if (count == 0) {
@@ -110,7 +110,7 @@ class Live {
   // Advances until a simulated time, for a number of steps, or for a wall-clock time, whichever comes first. law: None,
   // or a function that returns the basal strengths of a dictionary of arrays.
   void advance(double until, std::int64_t steps, double seconds, int threads, const nb::object& law) {
-    const terrain::StrengthLaw strength = [&law](terrain::LoadedNodes& nodes) { replace_strengths(law, nodes); };
+    const terrain::StrengthLaw strength = [&law](terrain::LoadedNodes& nodes) { set_strengths(law, nodes); };
     const terrain::StrengthLaw* replacing = law.is_none() ? nullptr : &strength;
     use(threads, [&](run::LiveRun& live) {
       const auto begin = std::chrono::steady_clock::now();
@@ -311,9 +311,10 @@ NB_MODULE(_core, module) {
         self.use(threads, [&](run::LiveRun& live) { live.change(next, sets); });
       });
   // The caller keeps the observer: a reference from here would be invisible to the garbage collector of Python.
-  module.def("make_live_run", [](const config::Case& parameters, PythonObserver& observer, int threads) {
-    return std::make_unique<Live>(computed(observer, threads, [&] { return run::make_live_run(parameters, observer); }),
-                                  observer);
+  module.def("make_live_run", [](const config::Case& parameters, const std::string& device, int threads,
+                                 PythonObserver& observer) {
+    return std::make_unique<Live>(
+        computed(observer, threads, [&] { return run::make_live_run(parameters, device, observer); }), observer);
   });
   // Both return the exit code of the command line, and rethrow an exception that interrupted the run.
   module.def("start_run", [](const config::Case& parameters, const std::string& folder, bool overwrite,

@@ -15,6 +15,9 @@ std::string use_device(const std::string& device, sim::Simulation<Dim>& simulati
   if (device == "cpu") {
     return "";
   }
+  if (device != "gpu" && device != "auto") {
+    throw UserError(fmt::format("device is '{}'; allowed: cpu, gpu, auto.", device));
+  }
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable && device == "auto") {
     return "";

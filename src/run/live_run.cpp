@@ -9,6 +9,7 @@
 #include "config/describe.hpp"
 #include "config/notices.hpp"
 #include "io/checkpoint.hpp"
+#include "run/device_choice.hpp"
 #include "run/map_files.hpp"
 #include "run/resume_checks.hpp"
 #include "run/run_loop.hpp"
@@ -30,14 +31,17 @@ class LiveRunOf final : public LiveRun {
  public:
   using Simulation = sim::Simulation<Dim>;
 
-  LiveRunOf(const config::Case& parameters, const config::Site& site, Warnings& warnings, Observer& observer)
+  LiveRunOf(const config::Case& parameters, const config::Site& site, std::string device, Warnings& warnings,
+            Observer& observer)
       : observer_(observer),
+        device_(std::move(device)),
         simulation_(std::make_shared<Simulation>(parameters, site)),
         records_(*simulation_, simulation_->site()),
         history_schedule_(history_schedule(parameters.time, 0.0, 0.0)),
         snapshot_schedule_(snapshot_schedule(parameters.time, 0.0, 0.0)),
         warnings_(*simulation_) {
     add_setup_warnings(*simulation_, sim::body_figures(*simulation_), warnings);
+    use_device<Dim>(device_, *simulation_);
     if (simulation_->needs_settling()) {
       observer.line("settling under gravity for {:g} s", parameters.mechanics.settle_time);
       if (!simulation_->settle([&] { return observer.interruption().empty(); })) {
@@ -69,6 +73,7 @@ class LiveRunOf final : public LiveRun {
   }
 
   void step(const terrain::StrengthLaw* strength) override {
+    require_intact_device();
     if (is_done()) {
       return;
     }
@@ -129,12 +134,13 @@ class LiveRunOf final : public LiveRun {
 
   [[nodiscard]] NodeTable nodes() const override {
     constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+    constexpr std::size_t record_size = mpm::record_size(mpm::components_of<mpm::Momentum, Dim>);
     NodeTable table{Dim, {}, {}, {}};
-    const std::vector<std::uint64_t>& blocks = simulation_->blocks_of_nodes();
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const auto positions = positions_of_block(blocks[b]);
-      for (std::size_t k = 0; k < block_nodes; ++k) {
-        const auto& record = simulation_->nodes().momentum(b, k);
+    const sim::MomentumOfNodes nodes = simulation_->momentum_of_nodes();
+    const double* record = nodes.records.data();
+    for (const std::uint64_t block : nodes.blocks) {
+      const auto positions = positions_of_block(block);
+      for (std::size_t k = 0; k < block_nodes; ++k, record += record_size) {
         const double mass = record[mpm::MomentumLayout<Dim>::mass];
         for (std::size_t a = 0; mass > 0.0 && a < Dim; ++a) {
           table.position.push_back(positions[k][static_cast<int>(a)]);
@@ -196,6 +202,7 @@ class LiveRunOf final : public LiveRun {
   }
 
   [[nodiscard]] std::string checkpoint() const override {
+    require_intact_device();
     if (!end_text_.empty()) {
       throw UserError("no particles are left to continue with: " + end_text_);
     }
@@ -225,6 +232,12 @@ class LiveRunOf final : public LiveRun {
   static constexpr const char* history_block = "history/";
   static constexpr const char* checkpoint_title = "the checkpoint";
 
+  // The particles of a failed device are those of its last copy.
+  void require_intact_device() const {
+    if (simulation_->device_has_failed()) {
+      throw UserError("the device has failed. Restore a checkpoint, or make a new simulation.");
+    }
+  }
   // Continues with another simulation, initialized at t = 0, from a checkpoint.
   void replace(std::shared_ptr<Simulation> next, const std::string& checkpoint) {
     const io::WholeCheckpoint state = io::intact_checkpoint(checkpoint_title, checkpoint);
@@ -234,6 +247,8 @@ class LiveRunOf final : public LiveRun {
     sim::RunRecords<Dim> records(*next, next->site());
     records.restore(blocks);
     std::vector<sim::HistoryRow> rows = rows_of(records.history_row(*next), blocks);
+    static_cast<void>(simulation_->particles());  // ends its use of a device, although views may keep it
+    use_device<Dim>(device_, *next);
     simulation_ = std::move(next);
     records_ = std::move(records);
     history_ = std::move(rows);
@@ -291,6 +306,7 @@ class LiveRunOf final : public LiveRun {
   void add_row() { history_.push_back(records_.history_row(*simulation_)); }
 
   Observer& observer_;
+  std::string device_;
   std::shared_ptr<Simulation> simulation_;  // shared with views of its fields
   sim::RunRecords<Dim> records_;
   Schedule history_schedule_, snapshot_schedule_;
@@ -301,12 +317,12 @@ class LiveRunOf final : public LiveRun {
 
 }  // namespace
 
-std::unique_ptr<LiveRun> make_live_run(const config::Case& parameters, Observer& observer) {
+std::unique_ptr<LiveRun> make_live_run(const config::Case& parameters, const std::string& device, Observer& observer) {
   Warnings warnings(&observer);
   const config::Site site = read_map_files(parameters, warnings);
   return with_dimension(parameters.general.dimension,
                         [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) -> std::unique_ptr<LiveRun> {
-                          auto live = std::make_unique<LiveRunOf<Dim>>(parameters, site, warnings, observer);
+                          auto live = std::make_unique<LiveRunOf<Dim>>(parameters, site, device, warnings, observer);
                           return live;
                         });
 }

@@ -88,9 +88,11 @@ class LiveRun {
   LiveRun() = default;
 };
 
-// Reads the inputs of a case, sets up its particles and settles them if the case requests it. Reports warnings and
-// notes. Throws UserError, and RunError if settling fails; also a UserError if the observer interrupts settling. The
-// observer must outlive the live run, which reports the warnings of its steps to it.
-[[nodiscard]] std::unique_ptr<LiveRun> make_live_run(const config::Case& parameters, Observer& observer);
+// Reads the inputs of a case, sets up its particles and settles them if the case requests it. device: "cpu", "gpu" or
+// "auto". Reports warnings and notes. Throws UserError, RunError if settling fails, and DeviceError; also a UserError
+// if the observer interrupts settling. The observer must outlive the live run, which reports the warnings of its steps
+// to it.
+[[nodiscard]] std::unique_ptr<LiveRun> make_live_run(const config::Case& parameters, const std::string& device,
+                                                     Observer& observer);
 
 }  // namespace thawslide::run

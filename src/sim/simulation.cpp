@@ -10,7 +10,6 @@
 #include "sim/direction.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/setup/bodies.hpp"
-#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 

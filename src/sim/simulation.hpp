@@ -42,8 +42,8 @@ class Simulation {
   bool settle(const std::function<bool()>& may_continue = [] { return true; });
 
   // Performs one time step of dt [s]. Throws RunError if a particle becomes invalid; the state is then that of the
-  // failed step. strength: replaces the basal laws of the case on the CPU; if it throws, the particles are those before
-  // the step, which can be repeated.
+  // failed step. strength: replaces the basal laws of the case; if it throws, the particles are those before the step,
+  // which can be repeated.
   void step(double dt, const terrain::StrengthLaw* strength = nullptr);
 
   // Message if the last step left no particle, and the case removes leaving particles: no step can follow. The state is
@@ -129,7 +129,10 @@ class Simulation {
     THAWSLIDE_ASSERT(device_ == nullptr, "nodes are asked for, which {} keeps", device_->name());
     return cpu_.nodes();
   }
-  [[nodiscard]] const std::vector<std::uint64_t>& blocks_of_nodes() const { return cpu_.blocks_of_nodes(); }
+  // Of the last step; empty before the first one, also after settling.
+  [[nodiscard]] MomentumOfNodes momentum_of_nodes() const {
+    return clock_.step_number > 0 ? solver().momentum_of_nodes() : MomentumOfNodes{};
+  }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const {
     return setup_.model.ground ? &slide_->ground : nullptr;

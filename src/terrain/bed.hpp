@@ -45,7 +45,7 @@ class Bed {
   // Marks parts of the bed below a column that the sliding mass covers, one bit each.
   void cover(std::size_t column, std::uint32_t parts) { covered_[column] |= static_cast<std::uint16_t>(parts); }
 
-  // Distributes the remaining bed below each column over its nodes, in proportion to their loads (BaseLayout). Nodes
+  // Distributes the remaining bed below each column over its nodes, in proportion to their loads (BaseLoad). Nodes
   // therefore cannot entrain the same mass twice, nor bed that was never covered. columns: number, or `outside`, by
   // node. Returns the mass available to each node [kg].
   [[nodiscard]] std::vector<double> distribute(const std::vector<std::size_t>& columns,

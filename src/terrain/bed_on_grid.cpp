@@ -35,7 +35,7 @@ void BedOnGrid<Dim>::update(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid
       for_covered_parts(this->bed_.columns(), particles, p, half, grid.cell(), cover);
     }
   }
-  this->distribute(NodesOfGrid<Dim>{nodes}, candidates_.data());
+  this->distribute(mpm::NodeAccess<Dim>{grid, nodes}, candidates_.data());
   below_ = this->below_nodes();
 }
 

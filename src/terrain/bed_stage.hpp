@@ -11,14 +11,16 @@
 
 namespace thawslide::terrain {
 
-// Kernels with one thread per candidate node. Nodes: records of nodes (terrain/contact_stage.hpp). Node: of one node.
+// Kernels with one thread per candidate node. Nodes: records of nodes (mpm/nodes.hpp, device/node_access.hpp). Node: of one node.
 template <class Nodes, class Node>
 struct PackLoad {
   Nodes nodes;
   const Node* candidates;
   double* loads;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const { loads[k] = nodes.base_at(candidates[k])[mpm::BaseLayout::load]; }
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    loads[k] = nodes.template read<mpm::BaseLoad>(candidates[k])[mpm::BaseLoad::load];
+  }
 };
 template <int Dim>
 struct OfferBed {

@@ -7,24 +7,6 @@
 
 namespace thawslide::terrain {
 
-// Records of nodes.
-template <int Dim>
-struct NodesOfGrid {
-  mpm::Nodes<Dim>& all;
-
-  [[nodiscard]] static mpm::NodeAt node(std::size_t block, std::size_t in_block) { return {block, in_block}; }
-  [[nodiscard]] const double* averages_at(const mpm::NodeAt& at) const { return all.averages(at).data(); }
-  [[nodiscard]] const double* state_at(const mpm::NodeAt& at) const { return all.state(at).data(); }
-  [[nodiscard]] double* momentum_at(const mpm::NodeAt& at) const { return all.momentum(at).data(); }
-  [[nodiscard]] const double* near_ground_at(const mpm::NodeAt& at) const { return all.near_ground(at).data(); }
-  [[nodiscard]] const double* base_at(const mpm::NodeAt& at) const { return all.base(at).data(); }
-  [[nodiscard]] double* contact_at(const mpm::NodeAt& at) const {
-    return all.contact.of_block(at.block)[at.node].data();
-  }
-  [[nodiscard]] double* motion_at(const mpm::NodeAt& at) const { return all.motion(at).data(); }
-  [[nodiscard]] double* velocity_at(const mpm::NodeAt& at) const { return all.velocity(at).data(); }
-};
-
 template <int Dim>
 class BlockStep {
  public:
@@ -33,7 +15,7 @@ class BlockStep {
   // ground: null if there is none.
   BlockStep(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, const mpm::Constraints<Dim>& constraints,
             const ContactModel<Dim>& model, double time, double dt, mpm::Nodes<Dim>& of_grid, std::size_t block)
-      : nodes{of_grid},
+      : nodes{grid, of_grid},
         time(time),
         dt(dt),
         options(model),
@@ -44,13 +26,13 @@ class BlockStep {
         width_(model.width.view()),
         constraints_(grid, constraints, block, time) {}
 
-  NodesOfGrid<Dim> nodes;
+  mpm::NodeAccess<Dim> nodes;
   double time, dt;
   const ContactOptions& options;
   std::size_t block;
   std::size_t candidates;  // its first nodes (GroundOnGrid)
 
-  [[nodiscard]] mpm::NodeConstraints<Dim> walls(const mpm::NodeAt& at) const { return {constraints_, at.node}; }
+  [[nodiscard]] mpm::NodeConstraints<Dim> walls(const mpm::NodeAt& at) const { return constraints_.at(at.node); }
   [[nodiscard]] const GroundAtNode<Dim>& ground(const mpm::NodeAt& at) const { return (*known_)[at.node]; }
   [[nodiscard]] double space(const mpm::NodeAt& at) const {
     const double cell = grid_.cell();

@@ -13,7 +13,7 @@ namespace thawslide::terrain {
 
 namespace {
 
-using mpm::BaseLayout, mpm::NodeAt;
+using mpm::BaseLoad, mpm::NodeAt;
 
 template <int Dim>
 inline constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
@@ -34,7 +34,8 @@ void find_contact(const BlockStep<Dim>& step, double cell, const ContactModel<Di
   const double smallest = smallest_area * (Dim == 2 ? cell : cell * cell);
   BasalNode base;
   for (std::size_t k = 0; k < step.candidates; ++k) {
-    const double* columns = model.band_columns ? step.nodes.all.base_state(step.block, k).data() : nullptr;
+    const double* columns =
+        model.band_columns ? step.nodes.template read<mpm::BaseState>(NodeAt{step.block, k}) : nullptr;
     gather_basal_node(step, NodeAt{step.block, k}, smallest, model.law.gravity, reads_mass, columns, base);
     if (base.area > 0.0) {
       contact.node.push_back(k);
@@ -60,29 +61,6 @@ struct GivenStrengths {
   LoadedNodes nodes;
 };
 
-template <int Dim>
-void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, const BlockStep<Dim>& step, const BlockContact& contact,
-                      const BasalLaw& law, LoadedNodes& nodes) {
-  for (std::size_t c = 0; c < contact.node.size(); ++c) {
-    const BasalNode& base = contact.base[c];
-    const NodeAt at{step.block, contact.node[c]};
-    Vector<double, Dim> position = mpm::node_position(grid, at.block, at.node);
-    position[Dim - 1] = step.ground(at).elevation;
-    nodes.position.insert(nodes.position.end(), position.data(), position.data() + Dim);
-    nodes.area.push_back(base.area);
-    nodes.substrate.push_back(base.substrate);
-    nodes.normal_pressure.push_back(base.state.normal_pressure);
-    nodes.pore_pressure.push_back(base.state.pore_pressure);
-    nodes.temperature.push_back(base.state.temperature);
-    nodes.saturation.push_back(base.state.saturation);
-    nodes.solid_fraction.push_back(base.state.solid_fraction);
-    nodes.slip.push_back(base.state.slip);
-    nodes.speed.push_back(base.state.speed);
-    nodes.unit_weight.push_back(base.state.unit_weight);
-    nodes.strength.push_back(base.strength(law.clamp, law.cap_pressure));
-  }
-}
-
 // Collects the loaded nodes of all blocks on one thread, and calls the law.
 template <int Dim>
 GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
@@ -96,12 +74,14 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
     given.first.push_back(given.nodes.strength.size());
     const BlockStep<Dim> step(grid, ground, constraints, model, time, dt, nodes, b);
     find_contact(step, grid.cell(), model, true, contact);
-    add_loaded_nodes(grid, step, contact, model.law, given.nodes);
+    for (std::size_t c = 0; c < contact.node.size(); ++c) {
+      const NodeAt at{step.block, contact.node[c]};
+      Vector<double, Dim> position = mpm::node_position(grid, at.block, at.node);
+      position[Dim - 1] = step.ground(at).elevation;
+      add_loaded_node<Dim>(position.data(), contact.base[c], model.law, given.nodes);
+    }
   }
-  const std::size_t count = given.nodes.strength.size();
-  law(given.nodes);
-  THAWSLIDE_ASSERT(given.nodes.strength.size() == count, "{} strengths of {} nodes", given.nodes.strength.size(),
-                   count);
+  replace_strengths(law, given.nodes);
   return given;
 }
 
@@ -128,11 +108,11 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
       return;
     }
     const BlockStep<Dim> step(grid, &ground, constraints, model, time, dt, nodes, b);
-    std::fill_n(nodes.base.of_block(b), nodes.base.nodes, typename mpm::SparseRecords<Dim, BaseLayout::size>::Record{});
+    std::fill_n(nodes.base.of_block(b), nodes.base.nodes, typename mpm::SparseRecordsOf<BaseLoad, Dim>::Record{});
     for (std::size_t k = 0; k < ground.candidates(b); ++k) {
       auto& base = nodes.base.of_block(b)[k];
-      base[BaseLayout::load] = load_on_ground(step, NodeAt{b, k});
-      if (base[BaseLayout::load] > 0.0) {
+      base[BaseLoad::load] = load_on_ground(step, NodeAt{b, k});
+      if (base[BaseLoad::load] > 0.0) {
         loaded[b] = 1;
       }
     }
@@ -147,7 +127,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
     }
     const BlockStep<Dim> step(grid, &ground, constraints, model, time, dt, nodes, b);
     for (std::size_t k = 0; k < ground.candidates(b); ++k) {
-      nodes.base.of_block(b)[k][BaseLayout::covered] = covered_ground(step, NodeAt{b, k});
+      nodes.base.of_block(b)[k][BaseLoad::covered] = covered_ground(step, NodeAt{b, k});
     }
   });
 }
@@ -166,7 +146,7 @@ template <int Dim>
 bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
-      if (nodes.base(b, k)[BaseLayout::load] > 0.0 && !(nodes.base_state(b, k)[mpm::BaseState::area] > 0.0)) {
+      if (nodes.base(b, k)[BaseLoad::load] > 0.0 && !(nodes.base_state(b, k)[mpm::BaseState::area] > 0.0)) {
         return true;
       }
     }

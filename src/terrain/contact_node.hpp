@@ -83,14 +83,14 @@ THAWSLIDE_HD double covered_fraction(double space, const Volume& volume) {
 }
 
 // Normal pressure [Pa] at a node: load over covered area of the nodes of its column. Nodes below the ground bear load
-// of particles that have sunk in. base(step): record of BaseLayout of the node `step` layers above.
+// of particles that have sunk in. base(step): record of BaseLoad of the node `step` layers above.
 template <class Base>
 THAWSLIDE_HD double pressure_of_column(double dt, double smallest_area, const Base& base) {
   double load = 0, covered = 0;
   for (int step = -1; step <= 1; ++step) {
     const auto& record = base(step);
-    load += record[mpm::BaseLayout::load];
-    covered += record[mpm::BaseLayout::covered];
+    load += record[mpm::BaseLoad::load];
+    covered += record[mpm::BaseLoad::covered];
   }
   return load / (dt * max(covered, smallest_area));
 }

@@ -20,16 +20,18 @@ struct ContactOptions {
 
 template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool has_mass(const Step& step, const Node& node) {
-  return step.nodes.momentum_at(node)[mpm::MomentumLayout<Step::dim>::mass] > 0.0;
+  return step.nodes.template read<mpm::Momentum>(node)[mpm::MomentumLayout<Step::dim>::mass] > 0.0;
 }
 template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE NodeState<Step::dim> trial_of(const Step& step, const Node& node) {
-  return trial_state<Step::dim>(step.walls(node), step.dt, step.options.mass_damping, step.nodes.momentum_at(node));
+  return trial_state<Step::dim>(step.walls(node), step.dt, step.options.mass_damping,
+                                step.nodes.template read<mpm::Momentum>(node));
 }
 // Clearance of a candidate node along the normal of the ground [m].
 template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double clearance_of(const Step& step, const Node& node) {
-  return clearance_along_normal(step.ground(node).normal, step.nodes.near_ground_at(node)[mpm::NearGround::clearance]);
+  return clearance_along_normal(step.ground(node).normal,
+                                step.nodes.template read<mpm::NearGround>(node)[mpm::NearGround::clearance]);
 }
 
 // Load of a candidate node on the ground [kg m/s].
@@ -48,12 +50,14 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double load_on_ground(const Step& step, con
 template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double covered_ground(const Step& step, const Node& node) {
   const double area = step.ground(node).area;
-  return !(area > 0.0) ? 0.0 : area * covered_fraction(step.space(node), [&](int above) {
-                                 Node other = node;
-                                 return step.find_above(node, above, other)
-                                            ? step.nodes.momentum_at(other)[mpm::MomentumLayout<Step::dim>::volume]
-                                            : 0.0;
-                               });
+  return !(area > 0.0)
+             ? 0.0
+             : area * covered_fraction(step.space(node), [&](int above) {
+                 Node other = node;
+                 return step.find_above(node, above, other)
+                            ? step.nodes.template read<mpm::Momentum>(other)[mpm::MomentumLayout<Step::dim>::volume]
+                            : 0.0;
+               });
 }
 
 // Gathers the input of the basal laws at a node; its area is 0 unless it is loaded. smallest_area [m2]. gravity [m/s2].
@@ -63,33 +67,33 @@ template <class Step, class Node>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void gather_basal_node(const Step& step, const Node& node, double smallest_area,
                                                             double gravity, bool reads_mass, const double* columns,
                                                             BasalNode& base) {
-  using mpm::BaseLayout;
+  using mpm::BaseLoad;
   constexpr int Dim = Step::dim;
   base.area = 0.0;
-  if (!has_mass(step, node) || !(step.nodes.base_at(node)[BaseLayout::load] > 0.0)) {
+  if (!has_mass(step, node) || !(step.nodes.template read<mpm::BaseLoad>(node)[BaseLoad::load] > 0.0)) {
     return;
   }
-  const double none[BaseLayout::size] = {};
+  const double none[BaseLoad::size<Dim>] = {};
   const double pressure = pressure_of_column(step.dt, smallest_area, [&](int above) -> const double* {
     Node other = node;
-    return step.find_above(node, above, other) ? step.nodes.base_at(other) : none;
+    return step.find_above(node, above, other) ? step.nodes.template read<mpm::BaseLoad>(other) : none;
   });
   // the basal area is divided among nodes in proportion to their loads
-  base.area = step.nodes.base_at(node)[BaseLayout::load] / (pressure * step.dt);
+  base.area = step.nodes.template read<mpm::BaseLoad>(node)[BaseLoad::load] / (pressure * step.dt);
   base.substrate = step.ground(node).substrate;
   const auto& normal = step.ground(node).normal;
   const bool on_columns = columns != nullptr && columns[mpm::BaseState::area] > 0.0;
-  base.state =
-      on_columns || !reads_mass
-          ? loaded_node<Dim>(pressure, normal, trial_of(step, node))
-          : contact_node_of<Dim>(step.nodes.state_at(node), step.nodes.averages_at(node)[mpm::Averages::volume],
-                                 step.nodes.near_ground_at(node), pressure, step.options.pore_pressure, normal,
-                                 trial_of(step, node));
+  base.state = on_columns || !reads_mass
+                   ? loaded_node<Dim>(pressure, normal, trial_of(step, node))
+                   : contact_node_of<Dim>(step.nodes.template read<mpm::NodalState>(node),
+                                          step.nodes.template read<mpm::Averages>(node)[mpm::Averages::volume],
+                                          step.nodes.template read<mpm::NearGround>(node), pressure,
+                                          step.options.pore_pressure, normal, trial_of(step, node));
   if (columns != nullptr) {
     set_columns_state(columns, step.options.pore_pressure, base.state);
   }
   base.state.time = step.time;
-  base.state.unit_weight = unit_weight_of<Dim>(step.nodes.momentum_at(node), gravity);
+  base.state.unit_weight = unit_weight_of<Dim>(step.nodes.template read<mpm::Momentum>(node), gravity);
 }
 
 // Applies contact to a loaded node. strength: of the base [Pa].
@@ -99,8 +103,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void touch_ground(const Step& step, const N
                                                        NodeState<Step::dim>& state, ContactWork<Step::dim>& work) {
   const auto& ground = step.ground(node);
   const ContactConditions<Step::dim> conditions{
-      ground.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], ground.bend, base.area, strength, base.friction};
-  auto* contact = step.nodes.contact_at(node);
+      ground.normal, step.nodes.template read<mpm::BaseLoad>(node)[mpm::BaseLoad::load],
+      ground.bend,   base.area,
+      strength,      base.friction};
+  auto* contact = step.nodes.template write<mpm::Contact>(node);
   apply_contact(step.walls(node), conditions, heat_fraction, step.dt, bed, state, work, contact);
 }
 
@@ -111,7 +117,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void store_motion(const Step& step, const N
                                                        const NodeState<Step::dim>& state,
                                                        ContactWork<Step::dim>& work) {
   const auto walls = step.walls(node);
-  auto* motion = step.nodes.motion_at(node);
+  auto* motion = step.nodes.template write<mpm::Motion>(node);
   finish_node<Step::dim>(state, walls.any(), step.options.mass_damping, step.dt, work, motion);
   if (walls.is_held()) {
     work.constraint_impulse -= state.constraint_impulse;
@@ -129,9 +135,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double map_back_node(const Step& step, cons
   const GroundOfMappedBack<Step::dim> below{touching, step.options.distance_check,
                                             touching ? &step.ground(node).normal : nullptr,
                                             touching ? clearance_of(step, node) : 0.0};
-  auto* velocity = step.nodes.velocity_at(node);
-  return map_back<Step::dim>(step.walls(node), below, gravity, step.dt, step.nodes.momentum_at(node),
-                             step.nodes.motion_at(node), velocity);
+  auto* velocity = step.nodes.template write<mpm::Velocity>(node);
+  return map_back<Step::dim>(step.walls(node), below, gravity, step.dt, step.nodes.template read<mpm::Momentum>(node),
+                             step.nodes.template read<mpm::Motion>(node), velocity);
 }
 
 }  // namespace thawslide::terrain

@@ -53,6 +53,23 @@ def test_nodes_without_mechanics_have_no_mass() -> None:
     assert len(simulation.nodes.mass) == 0
 
 
+def test_a_device_is_the_cpu_a_gpu_or_automatic(slope: Path, tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="device is 'tpu'; allowed: cpu, gpu, auto"):
+        Simulation(slope, threads=1, device="tpu", on_message=silent)
+    with pytest.raises(UserError, match="device is 'tpu'; allowed: cpu, gpu, auto"):
+        thawslide.run(slope, tmp_path / "run", device="tpu", progress=False)
+    assert not (tmp_path / "run").exists()
+    try:
+        Simulation(slope, threads=1, device="gpu", on_message=silent)
+    except UserError as error:  # without a GPU
+        assert "device gpu: " in str(error) and str(error).endswith("Run the case on the CPU: device cpu")
+    simulation = Simulation(slope, threads=1, device="auto", on_message=silent)
+    simulation.step(5)
+    simulation.restore(simulation.checkpoint())
+    simulation.step()
+    assert simulation.nodes.mass.sum() == pytest.approx(simulation.field("mass").sum(), rel=1e-12)
+
+
 def test_positions_are_in_the_coordinates_of_the_case(slope: Path, tmp_path: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)

@@ -8,7 +8,6 @@
 #include "base/parallel.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/sum_over_particles.hpp"
-#include "mpm/velocity_filter.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/filter_times.hpp"
 #include "sim/solver/time_step.hpp"
@@ -127,7 +126,7 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terra
                                             model.contact.mass_damping,
                                             dt,
                                             model.motion.gravity,
-                                            {nodes_}});
+                                            {slide_.grid, nodes_}});
     body_contact_.add_forces(*between_bodies_);
   }
   press_on_ground(dt, model.contact.reads_mass || strength != nullptr);
@@ -295,6 +294,18 @@ mpm::PathSample CpuSolver<Dim>::front(const mpm::Transformation<Dim>& path, doub
   exec::Cpu cpu;
   const std::vector<std::uint32_t>& order = slide_.grid.order();
   return mpm::Front<exec::Cpu, Dim>(cpu).find(path, mass, mpm::view_of(slide_.particles), order.data(), order.size());
+}
+
+template <int Dim>
+MomentumOfNodes CpuSolver<Dim>::momentum_of_nodes() const {
+  MomentumOfNodes all{blocks_of_nodes_, {}};
+  for (std::size_t b = 0; b < all.blocks.size(); ++b) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const auto& record = nodes_.momentum(b, k);
+      all.records.insert(all.records.end(), record.begin(), record.end());
+    }
+  }
+  return all;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template class CpuSolver<Dim>;

@@ -33,9 +33,8 @@ class CpuSolver final : public Solver<Dim> {
   // Updates the grid, its layers and the ground at its nodes to the particles.
   void find_cells();
 
-  // Nodes of the last step, and the keys of their blocks; no blocks before the first step with mechanics.
+  // Nodes of the last step.
   [[nodiscard]] const mpm::Nodes<Dim>& nodes() const { return nodes_; }
-  [[nodiscard]] const std::vector<std::uint64_t>& blocks_of_nodes() const { return blocks_of_nodes_; }
 
   void start() override {}
   StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) override;
@@ -45,6 +44,7 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const override;
   [[nodiscard]] mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const override;
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& /*cells*/) const override { return nullptr; }
+  [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override;
   void copy_particles_back() const override {}
   void sync_to_host() const override {}
   void release() override {}
@@ -59,7 +59,7 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] band::WaterLoss drain_pore_pressure(double dt);
   [[nodiscard]] mpm::InvalidParticle update_positions();
 
-  using ContactOfBodies = mpm::BodyContactArgs<terrain::NodesOfGrid<Dim>, Dim>;
+  using ContactOfBodies = mpm::BodyContactArgs<mpm::NodeAccess<Dim>, Dim>;
 
   void mark_band();
   void rescale_band();

@@ -6,8 +6,8 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "device/solver.hpp"
-#include "sim/solver/device_base.hpp"
-#include "sim/solver/device_model.hpp"
+#include "sim/solver/host_columns.hpp"
+#include "sim/solver/step_model.hpp"
 
 namespace thawslide::sim {
 
@@ -32,6 +32,8 @@ struct DeviceSolver<Dim>::Session {
   StepSums<Dim> sums;                           // of the last step
   device::MapSample map_sample;                 // of the last step
   double time = 0, dt = 0;                      // of the step: beginning, and duration [s]
+  MomentumOfNodes nodes;                        // as last fetched
+  bool has_stepped = false;                     // since the solver was created
   bool host_particles_valid = true, host_grid_valid = true, has_failed = false;
 };
 
@@ -75,10 +77,10 @@ void DeviceSolver<Dim>::start() {
     return;
   }
   call([&] {
-    device::HostCallbacks<Dim> callbacks = terrain_for_device(setup_.model, setup_.cell());
-    callbacks.columns = columns_for_device(setup_, clock_, session_->dt, base_);
+    device::HostCallbacks<Dim> callbacks = host_callbacks_of(setup_.model, setup_.cell());
+    callbacks.columns = host_columns_of(setup_, clock_, session_->dt, base_);
     callbacks.bed = base_.bed_in_reach(setup_.model);
-    session_->solver = make_(device_model_of(setup_.parameters, setup_.model, clock_), mpm::view_of(slide_.particles),
+    session_->solver = make_(step_model_of(setup_.parameters, setup_.model, clock_), mpm::view_of(slide_.particles),
                              slide_.particles.size(), std::move(callbacks));
     session_->sums.extremes = session_->solver->extremes();
   });
@@ -87,7 +89,6 @@ void DeviceSolver<Dim>::start() {
 template <int Dim>
 StepSums<Dim> DeviceSolver<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
   THAWSLIDE_ASSERT(!has_failed(), "a step after {} has failed", name_);
-  THAWSLIDE_ASSERT(strength == nullptr, "a law of the caller on {}", name_);
   start();
   Session& session = *session_;
   session.time = clock_.time;
@@ -98,7 +99,8 @@ StepSums<Dim> DeviceSolver<Dim>::step(double dt, const terrain::StrengthLaw* str
         session.solver->sort_in_memory();
       }
       session.host_particles_valid = session.host_grid_valid = false;
-      session.sums = session.solver->step(clock_.time, dt);
+      session.has_stepped = true;
+      session.sums = session.solver->step(clock_.time, dt, strength);
     });
   });
   return session.sums;
@@ -165,6 +167,20 @@ const device::MapSample* DeviceSolver<Dim>::sample_map(const mpm::MapCells& cell
 }
 
 template <int Dim>
+MomentumOfNodes DeviceSolver<Dim>::momentum_of_nodes() const {
+  fetch_nodes();
+  return session_->nodes;
+}
+
+template <int Dim>
+void DeviceSolver<Dim>::fetch_nodes() const {
+  if (session_->solver && setup_.parameters.mechanics.enabled && session_->has_stepped) {
+    MomentumOfNodes& nodes = session_->nodes;
+    call([&] { session_->solver->copy_momentum_to(nodes.blocks, nodes.records); });
+  }
+}
+
+template <int Dim>
 void DeviceSolver<Dim>::copy_particles_back() const {
   if (!session_->host_particles_valid) {
     call([&] { session_->solver->copy_to(mpm::view_of(slide_.particles)); });
@@ -187,7 +203,9 @@ void DeviceSolver<Dim>::sync_to_host() const {
 template <int Dim>
 void DeviceSolver<Dim>::release() {
   sync_to_host();
+  fetch_nodes();
   session_->solver.reset();
+  session_->has_stepped = false;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template class DeviceSolver<Dim>;

@@ -34,6 +34,7 @@ class DeviceSolver final : public Solver<Dim> {
   [[nodiscard]] BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const override;
   [[nodiscard]] mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const override;
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const override;
+  [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override;
   void copy_particles_back() const override;
   void sync_to_host() const override;
   void release() override;
@@ -45,6 +46,8 @@ class DeviceSolver final : public Solver<Dim> {
   // Runs work on the device. If the device fails, the host keeps the particles of the last synchronization, or a
   // mixture if it fails during one. Throws DeviceError then.
   void call(const std::function<void()>& work) const;
+  // Copies the momentum of the nodes of the last step, if the device has it.
+  void fetch_nodes() const;
 
   const Setup<Dim>& setup_;
   Slide<Dim>& slide_;

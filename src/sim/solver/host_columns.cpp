@@ -1,4 +1,4 @@
-#include "sim/solver/device_base.hpp"
+#include "sim/solver/host_columns.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -83,7 +83,7 @@ void set_nodes(const std::vector<double>& numbers, NodesOfDevice<Dim>& base) {
 }  // namespace
 
 template <int Dim>
-device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base) {
+device::HostColumns host_columns_of(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base) {
   if (!base.columns) {
     return {};
   }
@@ -103,7 +103,7 @@ device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clo
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) \
-  template device::HostColumns columns_for_device<Dim>(const Setup<Dim>&, const Clock&, const double&, Base<Dim>&);
+  template device::HostColumns host_columns_of<Dim>(const Setup<Dim>&, const Clock&, const double&, Base<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// Base of a slide on a device: band columns are computed on the CPU, from nodal values that the device transfers.
+// Band columns of a slide on a device: computed on the CPU, from nodal values that the device transfers.
 #pragma once
 
 #include "device/step_model.hpp"
@@ -9,6 +9,6 @@ namespace thawslide::sim {
 
 // Callbacks; empty without band columns. All arguments must outlive them. dt: of the step [s].
 template <int Dim>
-device::HostColumns columns_for_device(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base);
+device::HostColumns host_columns_of(const Setup<Dim>& setup, const Clock& clock, const double& dt, Base<Dim>& base);
 
 }  // namespace thawslide::sim

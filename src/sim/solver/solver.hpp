@@ -1,6 +1,9 @@
 // Time step of a slide on one of two executors, the CPU or a device, and reductions over its particles.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "band/body_sums.hpp"
 #include "band/step_extremes.hpp"
 #include "device/step_sums.hpp"
@@ -18,6 +21,12 @@ namespace thawslide::sim {
 
 using band::BodySums, device::StepSums;
 
+// By block (ascending keys) and node of a block.
+struct MomentumOfNodes {
+  std::vector<std::uint64_t> blocks;
+  std::vector<double> records;
+};
+
 // Functions that are const may update the copy of the slide in host memory, which changes no result.
 template <int Dim>
 class Solver {
@@ -29,8 +38,9 @@ class Solver {
 
   // Transfers the particles to where the step is performed, unless they are there.
   virtual void start() = 0;
-  // Advances particles by dt [s] from the time of the clock. strength: replaces the basal laws of the case; only on the
-  // CPU. If it throws, the particles are those before the step.
+  // Advances particles by dt [s] from the time of the clock. strength: replaces the basal laws of the case; or null. If
+  // it throws, the particles are those before the step; with the published rescaling of the band, their temperatures
+  // may already be those of its new thickness.
   virtual StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) = 0;
   // True if the last step has shown that no particle has left. Otherwise all have to be checked in host memory.
   [[nodiscard]] virtual bool none_has_left() const = 0;
@@ -43,6 +53,9 @@ class Solver {
   [[nodiscard]] virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const = 0;
   // Sums for maps; null on the CPU, where maps read the particles.
   [[nodiscard]] virtual const device::MapSample* sample_map(const mpm::MapCells& cells) const = 0;
+
+  // Records of Momentum of the nodes of the last step; empty before the first step with mechanics.
+  [[nodiscard]] virtual MomentumOfNodes momentum_of_nodes() const = 0;
 
   // Updates the particles in host memory; the second function also updates their grid.
   virtual void copy_particles_back() const = 0;

@@ -1,4 +1,4 @@
-#include "sim/solver/device_model.hpp"
+#include "sim/solver/step_model.hpp"
 
 #include "base/instances.hpp"
 #include "sim/setup/release_stages.hpp"
@@ -9,7 +9,7 @@
 namespace thawslide::sim {
 
 template <int Dim>
-device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock) {
+device::StepModel<Dim> step_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock) {
   device::StepModel<Dim> device;
   device.cell = parameters.grid.cell;
   device.mapping = mapping_of(model);
@@ -52,7 +52,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
 }
 
 template <int Dim>
-device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double cell) {
+device::HostCallbacks<Dim> host_callbacks_of(const Model<Dim>& model, double cell) {
   device::HostCallbacks<Dim> callbacks;
   if (model.ground) {
     callbacks.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
@@ -71,9 +71,9 @@ device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double ce
   return callbacks;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                            \
-  template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, const Clock&); \
-  template device::HostCallbacks<Dim> terrain_for_device<Dim>(const Model<Dim>&, double);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                          \
+  template device::StepModel<Dim> step_model_of<Dim>(const config::Case&, const Model<Dim>&, const Clock&); \
+  template device::HostCallbacks<Dim> host_callbacks_of<Dim>(const Model<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -10,10 +10,10 @@ namespace thawslide::sim {
 
 // clock: before the first step on the device.
 template <int Dim>
-device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock);
+device::StepModel<Dim> step_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock);
 
 // Queries of the model's terrain; the model must outlive the result.
 template <int Dim>
-device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double cell);
+device::HostCallbacks<Dim> host_callbacks_of(const Model<Dim>& model, double cell);
 
 }  // namespace thawslide::sim

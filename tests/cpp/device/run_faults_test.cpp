@@ -28,11 +28,11 @@ class FailingSolver final : public ForwardingSolver<2> {
   FailingSolver(std::unique_ptr<device::Solver<2>> steps, int steps_before_failure)
       : ForwardingSolver(std::move(steps)), left_(steps_before_failure) {}
 
-  device::StepSums<2> step(double time, double dt) override {
+  device::StepSums<2> step(double time, double dt, const terrain::StrengthLaw* strength) override {
     if (left_-- == 0) {
       throw device::Failure("allocating memory on the GPU: out of memory");
     }
-    return ForwardingSolver::step(time, dt);
+    return ForwardingSolver::step(time, dt, strength);
   }
   void copy_to(const mpm::ParticleView<2>& /*particles*/) override {
     throw device::Failure("copying from the GPU: unspecified launch failure");

@@ -35,7 +35,9 @@ class ForwardingSolver : public device::Solver<Dim> {
  public:
   explicit ForwardingSolver(std::unique_ptr<device::Solver<Dim>> steps) : steps_(std::move(steps)) {}
 
-  device::StepSums<Dim> step(double time, double dt) override { return steps_->step(time, dt); }
+  device::StepSums<Dim> step(double time, double dt, const terrain::StrengthLaw* strength) override {
+    return steps_->step(time, dt, strength);
+  }
   band::StepExtremes extremes() override { return steps_->extremes(); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return steps_->monitor(kernel); }
   void sample_map(const mpm::MapCells& cells, device::MapSample& sample) override { steps_->sample_map(cells, sample); }
@@ -46,6 +48,9 @@ class ForwardingSolver : public device::Solver<Dim> {
     return steps_->front(path, mass);
   }
   std::vector<Vector<double, Dim>> escaped_positions() override { return steps_->escaped_positions(); }
+  void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) override {
+    steps_->copy_momentum_to(blocks, records);
+  }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { steps_->copy_to(particles); }
   void time_stages() override {}

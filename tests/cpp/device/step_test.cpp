@@ -18,7 +18,7 @@
 #include "../support/two_bodies.hpp"
 #include "device/host_backend.hpp"
 #include "sim/simulation.hpp"
-#include "sim/solver/device_model.hpp"
+#include "sim/solver/step_model.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -42,7 +42,7 @@ static_assert(!mpm::one_record<RecordList<mpm::Velocity, mpm::HeatRates>>);
 
 template <int Dim>
 device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
-  return device_model_of(simulation.parameters(), simulation.model(), Clock{});
+  return step_model_of(simulation.parameters(), simulation.model(), Clock{});
 }
 
 template <int Dim>
@@ -51,7 +51,7 @@ template <int Dim>
 std::unique_ptr<Steps<Dim>> steps_of(Simulation<Dim>& simulation, Host& host) {
   return std::make_unique<Steps<Dim>>(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
                                       simulation.particles().size(),
-                                      terrain_for_device(simulation.model(), simulation.grid().cell()));
+                                      host_callbacks_of(simulation.model(), simulation.grid().cell()));
 }
 
 // Fields that a step without heat and pore pressure does not use.
@@ -162,7 +162,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
     }
     const double time = simulation.time();
     simulation.step(dt);
-    const auto sums = mechanics->step(time, dt);
+    const auto sums = mechanics->step(time, dt, nullptr);
     const std::string when = fmt::format("step {}", k);
     EXPECT_EQ(numbers_of(sums.contact), numbers_of(simulation.contact())) << when;
     EXPECT_EQ(sums.invalid.id, -1) << when;
@@ -282,7 +282,7 @@ void expect_all_barriers_to_be_needed() {
   const auto step_without = [&](int barrier) {
     Host host(ThreadOrder::shuffled, 7, barrier);
     const auto steps = steps_of(simulation, host);
-    steps->step(simulation.time(), 0.002);
+    steps->step(simulation.time(), 0.002, nullptr);
     mpm::Particles<Dim> found;
     found.resize(simulation.particles().size());
     steps->copy_to(mpm::view_of(found));
@@ -311,7 +311,7 @@ TEST(DeviceStep, IsSubmittedInFourGraphs) {
   for (int k = 0; k < 20; ++k) {
     const double dt = k < 10 ? 0.002 : 1e-7;
     const std::size_t waits = host.waits(), launched = host.launches();
-    steps->step(time, dt);
+    steps->step(time, dt, nullptr);
     time += dt;
     if (host.waits() - waits < fewest_waits) {
       fewest_waits = host.waits() - waits;

@@ -12,7 +12,6 @@
 #include "sim/checks/body_figures.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
-#include "sim/solver/device_model.hpp"
 
 namespace thawslide::sim {
 namespace {

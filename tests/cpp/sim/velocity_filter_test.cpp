@@ -1,6 +1,4 @@
 // The filter of velocities (FMPM): conserved components, damped components, and filter times.
-#include "mpm/velocity_filter.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 #include "../support/fields.hpp"
 #include "../support/record.hpp"
 #include "base/parallel.hpp"
+#include "mpm/motion.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 

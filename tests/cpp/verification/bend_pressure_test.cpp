@@ -131,7 +131,7 @@ double load_of_nodes(const Simulation<2>& simulation) {
   double load = 0.0;
   for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
     for (std::size_t k = 0; base.contains(b) && k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
-      load += base(b, k)[mpm::BaseLayout::load] / simulation.last_step();
+      load += base(b, k)[mpm::BaseLoad::load] / simulation.last_step();
     }
   }
   return load;

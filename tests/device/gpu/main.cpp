@@ -73,7 +73,7 @@ template <int Dim>
 device::StepSums<Dim> take_steps(Steps<Dim>& steps, int from, int to) {
   device::StepSums<Dim> sums;
   for (int k = from; k < to; ++k) {
-    sums = steps.step(k * time_step, time_step);
+    sums = steps.step(k * time_step, time_step, nullptr);
   }
   return sums;
 }

@@ -63,7 +63,7 @@ inline Measured measured(const device::SolverFactory<3>& make, std::size_t parti
   int done = 0;
   const auto take = [&](int count) {
     for (const int last = done + count; done < last; ++done) {
-      steps->step(done * time_step, time_step);
+      steps->step(done * time_step, time_step, nullptr);
     }
   };
   take(5);

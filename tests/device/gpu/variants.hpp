@@ -88,7 +88,7 @@ device::StepModel<Dim> model_of(Variant variant) {
     case Variant::at_rest:
       model.moves = false;
       break;
-    case Variant::columns:  // as in sim::device_model_of
+    case Variant::columns:  // as in sim::step_model_of
       model.band.heat = model.band.pressure = model.rescales_band = false;
       break;
     case Variant::bodies:
