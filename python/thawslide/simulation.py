@@ -103,8 +103,7 @@ def print_message(line: str) -> None:
 class Simulation:
     """A simulation in memory. Steps and history are those of `thawslide run` for the same case and device, bit for bit.
 
-    The steps run without the GIL. Ctrl-C stops them between two steps with KeyboardInterrupt; the simulation remains
-    usable. A failed step raises RunError, after which no step is possible.
+    The steps run without the GIL. Ctrl-C stops them between two steps with KeyboardInterrupt, and can be continued.
     """
 
     def __init__(
@@ -137,12 +136,9 @@ class Simulation:
         Raises
         ------
         UserError
-            For an invalid case, for a basal law in a case without terrain or mechanics, and for a GPU that cannot be
-            used.
-        RunError
-            If settling fails.
-        DeviceError
-            If the GPU fails.
+            For an invalid case, a basal law in a case without terrain or mechanics, and a GPU that cannot be used.
+        RunError, DeviceError
+            If settling or the GPU fails.
 
         Examples
         --------
@@ -318,10 +314,8 @@ class Simulation:
         ------
         UserError
             For a callback without an interval, and for an interval without a callback.
-        RunError
-            If a step fails, after which no step is possible.
-        DeviceError
-            If the GPU fails, likewise.
+        RunError, DeviceError
+            If a step or the GPU fails, after which no step is possible.
         KeyboardInterrupt
             At Ctrl-C; the simulation remains usable.
 
@@ -402,6 +396,5 @@ class Simulation:
             try:
                 self._core.advance(until, last - self.step_number, _CHUNK, self.threads, self._law)
             except (RuntimeError, MemoryError) as error:
-                of_device = isinstance(error, _core.DeviceError)
-                self._failed = of_device or self._law is None or self._law.is_evaluated
+                self._failed = isinstance(error, _core.DeviceError) or self._law is None or self._law.is_evaluated
                 raise

@@ -1,5 +1,5 @@
-// Passes of the stages that CPU and devices share (mpm/motion_stages.hpp, band/stages.hpp), on the CPU. device/step_passes.hpp provides the
-// same functions.
+// Passes of the stages that CPU and devices share (mpm/motion_stages.hpp, band/stages.hpp), on the CPU.
+// device/step_passes.hpp provides the same functions.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,8 @@
 
 namespace thawslide::terrain {
 
-// Kernels with one thread per candidate node. Nodes: records of nodes (mpm/nodes.hpp, device/node_access.hpp). Node: of one node.
+// Kernels with one thread per candidate node. Nodes: records of nodes (mpm/nodes.hpp, device/node_access.hpp). Node: of
+// one node.
 template <class Nodes, class Node>
 struct PackLoad {
   Nodes nodes;
