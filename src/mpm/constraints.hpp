@@ -32,7 +32,7 @@ class BlockConstraints {
                                      node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1),
                                      time)) {}
 
-  [[nodiscard]] NodeConstraints<Dim> at(std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE NodeConstraints<Dim> at(std::size_t node) const {
     const Vector<double, Dim> unused = Vector<double, Dim>::Zero();
     return {motion_, may_apply_ ? node_position(*grid_, block_, node) : unused, time_, held_, may_apply_};
   }

@@ -71,12 +71,12 @@ struct NodeAccess {
 
   // Zeros in blocks without such records.
   template <class Name>
-  [[nodiscard]] const double* read(const NodeAt& at) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const double* read(const NodeAt& at) const {
     return std::as_const(nodes.template of<Name>())(at).data();
   }
   // Null in blocks without such records.
   template <class Name>
-  [[nodiscard]] double* write(const NodeAt& at) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE double* write(const NodeAt& at) const {
     auto& records = nodes.template of<Name>();
     if constexpr (requires { records.contains(at.block); }) {
       if (!records.contains(at.block)) {
