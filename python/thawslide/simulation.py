@@ -280,7 +280,7 @@ class Simulation:
 
         Raises
         ------
-        UserError, RunError, DeviceError, KeyboardInterrupt
+        UserError, RunError, DeviceError
             As `run`.
 
         """
@@ -316,8 +316,6 @@ class Simulation:
             For a callback without an interval, and for an interval without a callback.
         RunError, DeviceError
             If a step or the GPU fails, after which no step is possible.
-        KeyboardInterrupt
-            At Ctrl-C; the simulation remains usable.
 
         """
         target = math.inf if until is None else until
