@@ -19,6 +19,7 @@ class NotInRunError(ReportError):
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 _SHOWN = 60  # characters of a found text
 _OPTION = re.compile(r"(?<![\w/.-])--((?:set |end (?=T\b))|[a-z]+(?:-[a-z]+)*(?![\w-]))")
+_COMMAND = re.compile(r"(\./run(?: --[a-z]+)+|thawslide .*)")
 _PARAMETERS = {
     "set ": "",
     "end ": "time.end=",
@@ -50,9 +51,12 @@ def with_parameters(text: str) -> str:
     """Return a message with keys and parameters of Python in place of options, except those in commands."""
     lines = []
     for line in text.split("\n"):
-        before, command, after = line.partition("thawslide ")
-        lines.append(_OPTION.sub(lambda option: _PARAMETERS.get(option[1], option[1].replace("-", "_")), before))
-        lines[-1] += command + after
+        parts = _COMMAND.split(line)  # texts, and commands between them
+        parts[::2] = [
+            _OPTION.sub(lambda option: _PARAMETERS.get(option[1], option[1].replace("-", "_")), text)
+            for text in parts[::2]
+        ]
+        lines.append("".join(parts))
     return "\n".join(lines)
 
 

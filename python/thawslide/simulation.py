@@ -103,7 +103,7 @@ def print_message(line: str) -> None:
 class Simulation:
     """A simulation in memory. Steps and history are those of `thawslide run` for the same case and device, bit for bit.
 
-    The steps run without the GIL. Ctrl-C stops them between two steps with KeyboardInterrupt, and can be continued.
+    The steps run without the GIL. Ctrl-C stops them between two steps with KeyboardInterrupt; they can be continued.
     """
 
     def __init__(

@@ -62,7 +62,8 @@ def test_a_device_is_the_cpu_a_gpu_or_automatic(slope: Path, tmp_path: Path) -> 
     try:
         Simulation(slope, threads=1, device="gpu", on_message=silent)
     except UserError as error:  # without a GPU
-        assert "device gpu: " in str(error) and str(error).endswith("Run the case on the CPU: device cpu")
+        assert str(error).startswith("device gpu: ") and str(error).endswith("Run the case on the CPU: device cpu")
+        assert "./run setup" not in str(error)
     simulation = Simulation(slope, threads=1, device="auto", on_message=silent)
     simulation.step(5)
     simulation.restore(simulation.checkpoint())
@@ -169,6 +170,8 @@ def test_options_in_commands_remain() -> None:
         "To continue, add time.stop_at_rest=0 or time.end=T.\nstopped: thawslide resume runs/a --end 3"
     )
     assert with_parameters("runs/a--b: --reach-angle is 0") == "runs/a--b: reach_angle is 0"
+    built = "--device gpu: to build: ./run --setup --gpu. Run the case on the CPU: --device cpu"
+    assert with_parameters(built) == "device gpu: to build: ./run --setup --gpu. Run the case on the CPU: device cpu"
 
 
 def test_a_logger_records_quantities_at_intervals(slope: Path) -> None:
