@@ -1,5 +1,5 @@
 // Basal segment: a part of the base that carries a band column (physics/band_column.hpp) and moves with the sliding
-// mass.
+// mass. For host and device.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct BasalSegment {
 };
 
 template <int Dim>
-double area_of(const Eigen::Matrix<double, Dim, Dim - 1>& sides) {
+THAWSLIDE_HD double area_of(const Eigen::Matrix<double, Dim, Dim - 1>& sides) {
   if constexpr (Dim == 2) {
     return sides.norm();
   } else {
@@ -46,9 +46,16 @@ double area_of(const Eigen::Matrix<double, Dim, Dim - 1>& sides) {
   }
 }
 
+// Edge of a square of an area [m2]; in 2D, of a line.
+template <int Dim>
+THAWSLIDE_HD double edge_of_face(double area) {
+  return Dim == 2 ? area : std::sqrt(area);
+}
+
 // Edges of a segment whose horizontal projection has length `size` along each axis.
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim - 1> sides_on(const Vector<double, Dim>& normal, const Vector<double, Dim - 1>& size) {
+THAWSLIDE_HD Eigen::Matrix<double, Dim, Dim - 1> sides_on(const Vector<double, Dim>& normal,
+                                                          const Vector<double, Dim - 1>& size) {
   Eigen::Matrix<double, Dim, Dim - 1> sides = Eigen::Matrix<double, Dim, Dim - 1>::Zero();
   for (int a = 0; a + 1 < Dim; ++a) {
     sides(a, a) = size[a];
@@ -59,8 +66,8 @@ Eigen::Matrix<double, Dim, Dim - 1> sides_on(const Vector<double, Dim>& normal, 
 
 // Rotates v by the smallest rotation that takes the unit vector `from` to `to`.
 template <int Dim>
-Vector<double, Dim> turned(const Vector<double, Dim>& v, const Vector<double, Dim>& from,
-                           const Vector<double, Dim>& to) {
+THAWSLIDE_HD Vector<double, Dim> turned(const Vector<double, Dim>& v, const Vector<double, Dim>& from,
+                                        const Vector<double, Dim>& to) {
   const Vector<double, Dim> both = from + to;
   const double along = 1.0 + from.dot(to);
   return along > round_off ? Vector<double, Dim>(v - both * (both.dot(v) / along) + 2.0 * from.dot(v) * to) : v;

@@ -1,190 +1,292 @@
-// Base of the sliding mass as segments that each carry a band column, and their exchange with contact nodes. Segments
-// move with the sliding mass, split when they become long, and are created where it reaches new ground.
+// Base of the sliding mass as segments that each carry a band column, and their exchange with contact nodes, on an
+// executor. Segments move with the sliding mass, split when they become long, and are created where it reaches new
+// ground.
 #pragma once
 
-#include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "band/base_stencil.hpp"
-#include "band/segment_step.hpp"
-#include "base/state_numbers.hpp"
-#include "mpm/nodes.hpp"
+#include "band/segment_creation.hpp"
+#include "exec/ordered_sum.hpp"
+#include "exec/selection.hpp"
 
 namespace thawslide::band {
 
-// Sums over all segments [J, kg, m2, m3]. Heat includes the friction heat that is pending until the columns' next step.
-struct ColumnSums {
-  double area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
-
-  ColumnSums& operator+=(const ColumnSums& part) {
-    area += part.area;
-    heat += part.heat;
-    waiting_heat += part.waiting_heat;
-    water += part.water;
-    opening += part.opening;
-    gas_void += part.gas_void;
-    return *this;
-  }
-};
-
-// Heat and water budget of all columns since the start [J], [kg]. created: with new segments; left: with removed
-// segments.
-struct ColumnLedger {
-  double created_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0,
-         left_heat = 0;
-  double created_water = 0, body_water = 0, vented_water = 0, steam = 0, left_water = 0;
-
-  template <class Visit>
-  void for_each(const Visit& visit) {
-    for (double* term : {&created_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat, &left_heat,
-                         &created_water, &body_water, &vented_water, &steam, &left_water}) {
-      visit(*term);
-    }
-  }
-};
-
-// Means over the base, weighted by area, and extremes.
-struct BaseMeans {
-  double temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
-  double max_temperature = 0,
-         max_wet_temperature = 0;  // maximum of all cells above the ground, and of those with water [C]
-  double dry_fraction = 0;         // area fraction of the base in which a cell of the band has no water left
-  double max_pressure_ratio = 0;   // maximum P over averaged N
-};
-
 template <int Dim>
+struct SegmentsState {
+  std::vector<BasalSegment<Dim>> segments;
+  ColumnLedger budget;  // since the start
+  std::int64_t next_id = 0;
+  bool checks_gaps = true;     // segments have moved since the last search for ground without segments
+  double time_since_step = 0;  // of the columns [s]
+};
+
+// Grid, nodes and ground of a step. Nodes: access to records of nodes (mpm/nodes.hpp, device/node_access.hpp). Ground,
+// Normals: as in band/segment_motion.hpp.
+template <class Nodes, class Ground, class Normals, int Dim>
+struct BaseInStep {
+  mpm::BlockTables<Dim> tables;
+  Nodes nodes;
+  Ground ground;
+  Normals normal_at;
+};
+
+template <class Executor, int Dim>
 class BasalSegments {
+  using Segment = BasalSegment<Dim>;
+  using Patch = BasePatch<Dim>;
+
  public:
-  // Ground below a horizontal position [m].
-  struct Ground {
-    std::function<double(const Vector<double, Dim - 1>&)> height;
-    std::function<Vector<double, Dim>(const Vector<double, Dim - 1>&)> normal;  // into the ground
-    std::function<double(const Vector<double, Dim - 1>&)> width;                // of a 2D section, relative; 1 in 3D
+  // cell: mesh size [m]. gravity [m/s2].
+  BasalSegments(Executor& executor, const ColumnsModel& model, double cell, const Vector<double, Dim>& gravity)
+      : executor_(executor), model_(model), cell_(cell), gravity_(gravity) {}
 
-    // Area of ground spanned by edges around a position [m2].
-    [[nodiscard]] double area_of(const Vector<double, Dim>& position,
-                                 const typename BasalSegment<Dim>::Sides& sides) const {
-      return width(position.template head<Dim - 1>()) * band::area_of<Dim>(sides);
-    }
-  };
-  // Unit normal into the ground at a node; null if the ground is not near.
-  using NormalAtNode = std::function<const Vector<double, Dim>*(std::size_t block, std::size_t node)>;
-
-  // gravity [m/s2].
-  BasalSegments(const ColumnsModel& model, const Vector<double, Dim>& gravity) : model_(model), gravity_(gravity) {}
-
-  // Fills nodes.base_state of the blocks with contact: at nodes on the ground, and below them the same. Call before
-  // each update_from_nodes, which uses the same stencils.
-  void to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes);
+  // Computes the state of the base at the nodes of layer 0.
+  void to_nodes(const mpm::BlockTables<Dim>& tables) {
+    ground_block_.resize(tables.blocks);
+    executor_.for_each(tables.blocks, FindGroundBlock<Dim>{tables, ground_block_.data()});
+    locate(tables, segments_.data(), segments_.size());
+    states_of_segments_.resize(segments_.size());
+    areas_.resize(segments_.size());
+    executor_.for_each(segments_.size(),
+                       StateOfSegment<Dim>{segments_.data(), states_of_segments_.data(), areas_.data()});
+    records_.resize((tables.blocks + 1) * Patch::nodes_of_layer);
+    add_to_nodes(tables, false);
+  }
+  // The result, until the blocks change.
+  [[nodiscard]] mpm::BaseStates<Dim> states() const {
+    return {ground_block_.data(), reinterpret_cast<const double*>(records_.data())};
+  }
 
   // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
-  // dt. First creates segments where the sliding mass touches ground without one. Call after contact.
-  void update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
-                         double thickness, double dt, mpm::Nodes<Dim>& nodes);
+  // dt. First creates segments where the sliding mass touches ground without one. Every model.step, segments stretch,
+  // split and merge, and all columns are stepped. thickness: prescribed band thickness [m].
+  template <class Nodes, class Ground, class Normals>
+  void update(const BaseInStep<Nodes, Ground, Normals, Dim>& base, double thickness, double dt) {
+    const std::size_t of_layers = base.tables.blocks * Patch::nodes_of_layer;
+    contact_.resize(of_layers);
+    executor_.for_each(of_layers,
+                       SumContact<Nodes, Dim>{base.tables, ground_block_.data(), base.nodes, contact_.data()});
+    if (std::exchange(state_.checks_gaps, false) || some_node_is_bare(base)) {
+      create(base, thickness);
+    }
+    divided_.resize(of_layers);
+    executor_.for_each(of_layers,
+                       DivideContact<Dim>{ground_block_.data(), records_.data(), contact_.data(), divided_.data()});
+    executor_.for_each(segments_.size(), GatherContact<Dim>{base.tables, model_, gravity_, dt, stencils_.data(),
+                                                            divided_.data(), segments_.data()});
+    state_.time_since_step += dt;
+    if (state_.time_since_step + 0.5 * dt > model_.step) {
+      const double duration = std::exchange(state_.time_since_step, 0.0);
+      follow(base, duration);
+      step(thickness, duration);
+    }
+  }
+
+  [[nodiscard]] const ColumnsModel& model() const { return model_; }
+  // In the memory of the executor.
+  [[nodiscard]] std::span<const Segment> segments() const { return {segments_.data(), segments_.size()}; }
+  [[nodiscard]] const ColumnLedger& budget() const { return state_.budget; }
+  [[nodiscard]] double time_since_step() const { return state_.time_since_step; }
+  void set_time_since_step(double time) { state_.time_since_step = time; }
+  [[nodiscard]] std::vector<SegmentBelow> summaries() requires(Dim == 3) {
+    summaries_.resize(segments_.size());
+    executor_.for_each(segments_.size(), SummarizeSegment{segments_.data(), summaries_.data()});
+    return summaries_.get();
+  }
+  [[nodiscard]] SegmentsState<Dim> state() const {
+    SegmentsState<Dim> state = state_;
+    state.segments = segments_.get();
+    return state;
+  }
+  void set(const SegmentsState<Dim>& state) {
+    segments_.set(state.segments);
+    state_ = state;
+    state_.segments.clear();
+  }
+
+ private:
+  // Stencils of segments, and the segments above each block.
+  void locate(const mpm::BlockTables<Dim>& tables, const Segment* segments, std::size_t count) {
+    stencils_.resize(count);
+    for (exec::Array<std::uint64_t, Executor>* keys : {&keys_, &sorted_keys_}) {
+      keys->resize(count);
+    }
+    for (exec::Array<std::uint32_t, Executor>* numbers : {&numbers_, &by_block_}) {
+      numbers->resize(count);
+    }
+    executor_.for_each(count,
+                       LocateSegment<Dim>{tables, cell_, segments, stencils_.data(), keys_.data(), numbers_.data()});
+    executor_.sort(keys_.data(), numbers_.data(), sorted_keys_.data(), by_block_.data(), count);
+    first_of_block_.resize(tables.blocks + 1);
+    executor_.for_each(first_of_block_.size(), FirstOfBlock{sorted_keys_.data(), count, first_of_block_.data()});
+  }
+  [[nodiscard]] SegmentsOfBlocks of_blocks() const { return {first_of_block_.data(), by_block_.data()}; }
+
+  // Sums the states of the located segments times their areas at the nodes.
+  void add_to_nodes(const mpm::BlockTables<Dim>& tables, bool adds) {
+    patches_.resize(tables.blocks * Patch::nodes);
+    executor_.for_each(
+        tables.blocks * Patch::rows,
+        AddToPatch<Dim>{of_blocks(), stencils_.data(), states_of_segments_.data(), areas_.data(), patches_.data()});
+    executor_.for_each(records_.size(), SumPatches<Dim>{tables, ground_block_.data(), of_blocks(), patches_.data(),
+                                                        adds, records_.data()});
+  }
+
+  template <class Base>
+  [[nodiscard]] auto bare_nodes(const Base& base, std::uint32_t* is_bare) {
+    return FindBareNodes<decltype(base.nodes), decltype(base.ground), Dim>{
+        base.tables, states(), cell_, base.nodes, base.ground, is_bare, any_.data()};
+  }
+  template <class Base>
+  bool some_node_is_bare(const Base& base) {
+    any_.set({0});
+    executor_.for_each(base.tables.blocks * block_nodes, bare_nodes(base, nullptr));
+    return any_.get(0) != 0;
+  }
+
+  // Creates segments in the lattice cells of nodes in contact that no segment covers.
+  template <class Nodes, class Ground, class Normals>
+  void create(const BaseInStep<Nodes, Ground, Normals, Dim>& base, double thickness) {
+    const Lattice<Dim> lattice{cell_};
+    const std::size_t all_nodes = base.tables.blocks * block_nodes;
+    std::uint32_t* is_bare = selection_.marks(all_nodes);
+    any_.set({0});
+    executor_.for_each(all_nodes, bare_nodes(base, is_bare));
+    keys_.resize(selection_.count());
+    if (keys_.size() == 0) {
+      return;
+    }
+    executor_.for_each(all_nodes,
+                       ListBareCells<Nodes, Dim>{lattice, base.nodes, is_bare, selection_.before(), keys_.data()});
+    sorted_keys_.resize(keys_.size());
+    executor_.sort(keys_.data(), sorted_keys_.data(), keys_.size());
+    unique_.find(sorted_keys_, 0, cells_, nullptr);
+    std::uint32_t* is_kept = selection_.marks(cells_.size());
+    executor_.for_each(cells_.size(), exec::Fill<std::uint32_t>{is_kept, 1});
+    executor_.for_each(segments_.size(),
+                       LeaveOutCovered<Dim>{lattice, segments_.data(), cells_.data(), cells_.size(), is_kept});
+    selection_.keep(cells_, bare_cells_);
+    const std::size_t count = bare_cells_.size(), known = segments_.size();
+    if (count == 0) {
+      return;
+    }
+    segments_.grow(known + count);
+    states_of_segments_.resize(count);
+    areas_.resize(count);
+    executor_.for_each(count,
+                       CreateSegment<Ground, Dim>{lattice, base.ground, bare_cells_.data(), state_.next_id,
+                                                  segments_.data() + known, states_of_segments_.data(), areas_.data()});
+    state_.next_id += static_cast<std::int64_t>(count);
+    locate(base.tables, segments_.data() + known, count);
+    add_to_nodes(base.tables, true);
+    sum_motion(base);
+    executor_.for_each(
+        count, StartSegment<Ground, Dim>{base.tables, model_, gravity_, thickness, cell_, base.ground, records_.data(),
+                                         contact_.data(), motion_.data(), stencils_.data(), segments_.data() + known,
+                                         areas_.data(), budgets_.parts(count)});
+    state_.budget += budgets_.total();
+    add_to_nodes(base.tables, true);
+    locate(base.tables, segments_.data(), segments_.size());
+  }
+
+  template <class Nodes, class Ground, class Normals>
+  void sum_motion(const BaseInStep<Nodes, Ground, Normals, Dim>& base) {
+    motion_.resize(base.tables.blocks * Patch::nodes_of_layer);
+    executor_.for_each(motion_.size(),
+                       SumColumnMotion<Nodes, Normals, Dim>{base.tables, ground_block_.data(), base.nodes,
+                                                            base.normal_at, motion_.data()});
+  }
 
   // Updates segment velocities and stretches segments with the flow over the last `duration` [s]; then splits long
   // segments and merges small ones.
-  void follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal, double duration,
-              const mpm::Nodes<Dim>& nodes);
-
-  // Then steps all columns over `duration` [s]. thickness: prescribed band thickness at its end [m].
-  void step(double thickness, double duration);
-
-  [[nodiscard]] const std::vector<BasalSegment<Dim>>& segments() const { return segments_; }
-  // Means of the column after its last step, with the pore pressure under the present load.
-  [[nodiscard]] static physics::BandMeans current_means(const BasalSegment<Dim>& segment) {
-    physics::BandMeans means = segment.means;
-    means.pore_pressure = physics::band_pressure(segment.load, segment.column);
-    return means;
+  template <class Nodes, class Ground, class Normals>
+  void follow(const BaseInStep<Nodes, Ground, Normals, Dim>& base, double duration) {
+    locate(base.tables, segments_.data(), segments_.size());
+    sum_motion(base);
+    const std::size_t count = segments_.size();
+    executor_.for_each(
+        count, FollowSlide<Ground, Dim>{base.tables, cell_, duration, base.ground, stencils_.data(), motion_.data(),
+                                        segments_.data(), selection_.marks(count), budgets_.parts(count)});
+    state_.budget += budgets_.total();
+    keep_marked();
+    split(base.ground);
+    merge(base.ground);
+    state_.checks_gaps = true;
   }
-  [[nodiscard]] physics::ColumnVolumes volumes_of(const BasalSegment<Dim>& segment) const {
-    return band::volumes_of(model_, segment);
-  }
-  [[nodiscard]] const ColumnLedger& budget() const { return budget_; }
-  [[nodiscard]] ColumnSums sums() const;
-  [[nodiscard]] BaseMeans means() const;
-
-  // Checkpoint state.
-  [[nodiscard]] std::vector<double> state() const;
-  void restore(const std::vector<double>& numbers);
-
- private:
-  using Segment = BasalSegment<Dim>;
-  using Stencil = BaseStencil<Dim>;
-  using Patch = BasePatch<Dim>;
-
-  using Lattice = std::array<int, Dim - 1>;  // cell of the horizontal lattice on which segments are created
-  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<double, Dim>& position) const;
-  [[nodiscard]] std::vector<Lattice> cells_in_contact(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
-                                                      const mpm::Nodes<Dim>& nodes) const;
-  void leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<Lattice>& cells) const;
-  [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const;
-  void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NormalAtNode& node_normal,
-                       double thickness, mpm::Nodes<Dim>& nodes);
-  void locate(const mpm::SparseGrid<Dim>& grid);
-  [[nodiscard]] bool has_segments(std::size_t b) const { return first_of_block_[b] < first_of_block_[b + 1]; }
-  // Calls visit(p) for the segments above block b.
-  template <class Visit>
-  void for_each_segment(std::size_t b, const Visit& visit) const {
-    for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
-      visit(static_cast<std::size_t>(by_block_[n]));
+  void keep_marked() {
+    if (selection_.count() < segments_.size()) {
+      selection_.keep(segments_, kept_);
+      segments_.swap(kept_);
     }
   }
-  void add_area(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil, const Segment& segment,
-                mpm::Nodes<Dim>& nodes, double fraction = 1) const;
-  // Contact of a node with those below it, or the part of a segment.
-  struct InContact {
-    double area = 0, normal_force = 0;   // [m2], [N]
-    double slip = 0, friction_heat = 0;  // slip speed times area [m3/s], [W]
-  };
-  void sum_contact(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes);
-  void start_segment(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil, const Ground& ground,
-                     const InContact& contact, double thickness, mpm::Nodes<Dim>& nodes, Segment& segment);
-  [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil,
-                                     const mpm::Nodes<Dim>& nodes, const Segment& segment) const;
-  [[nodiscard]] Segment new_segment(const Vector<double, Dim - 1>& middle, const Vector<double, Dim - 1>& size,
-                                    const Ground& ground);
-  // Motion of the sliding mass around a segment.
-  struct Nearby {
-    Matrix<double, Dim> gradient = Matrix<double, Dim>::Zero();  // of the velocity, along the ground [1/s]
-    Vector<double, Dim> velocity = Vector<double, Dim>::Zero();  // along the ground [m/s]
-    bool is_present = false;
-  };
-  // Sums over the nodes below, on and above the ground at one place of a patch, with the weights of the layers: mass
-  // [kg] and momentum [N s], and both times the height in cells.
-  struct ColumnMotion {
-    double mass = 0, mass_height = 0, mass_squares = 0;  // mass_squares: with the height squared
-    Vector<double, Dim> momentum = Vector<double, Dim>::Zero(), momentum_height = Vector<double, Dim>::Zero();
-    const Vector<double, Dim>* normal = nullptr;
-  };
-  using PatchMotion = std::array<ColumnMotion, Patch::nodes>;
-  [[nodiscard]] PatchMotion motion_about(const mpm::SparseGrid<Dim>& grid, std::int32_t b,
-                                         const NormalAtNode& node_normal, const mpm::Nodes<Dim>& nodes) const;
-  [[nodiscard]] Nearby slide_near(double cell, const Stencil& stencil, const PatchMotion& motion,
-                                  const Segment& segment) const;
-  void gather_from_nodes(const mpm::SparseGrid<Dim>& grid, std::size_t b, double dt, const mpm::Nodes<Dim>& nodes);
-  void take_contact(const InContact& around, double heat, double pressure, double dt, Segment& segment) const;
-  void stretch_with(const Nearby& slide, const Ground& ground, double dt, Segment& segment) const;
-  void split_long_segments(double most, const Ground& ground);
-  void merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground);
-  void join(const Segment& other, const Ground& ground, Segment& segment);
-  void keep_only(const std::vector<std::uint8_t>& left);
-  void add_to_budget(const physics::ColumnBudget& term);
-  void remove_segment(const Segment& segment);
-  void place_on(const Ground& ground, Segment& segment) const;
-  void update_load(double normal_pressure, double borne, double dt, Segment& segment) const;
+  template <class Ground>
+  void split(const Ground& ground) {
+    constexpr double longest = 1.5;  // side of a segment along an axis, in cells
+    const std::size_t count = segments_.size();
+    SplitLong<Ground, Dim> splitting{longest * cell_, ground, count, state_.next_id, nullptr, segments_.data()};
+    executor_.for_each(count, CountSplits<Ground, Dim>{splitting, selection_.marks(count)});
+    const std::size_t added = selection_.count();
+    if (added == 0) {
+      return;
+    }
+    segments_.grow(count + added);
+    splitting.before = selection_.before();
+    splitting.segments = segments_.data();
+    executor_.for_each(count, splitting);
+    state_.next_id += static_cast<std::int64_t>(added);
+  }
+  template <class Ground>
+  void merge(const Ground& ground) {
+    const std::size_t count = segments_.size();
+    for (exec::Array<std::uint64_t, Executor>* keys : {&keys_, &sorted_keys_}) {
+      keys->resize(count);
+    }
+    for (exec::Array<std::uint32_t, Executor>* numbers : {&numbers_, &by_block_}) {
+      numbers->resize(count);
+    }
+    std::uint32_t* is_kept = selection_.marks(count);
+    executor_.for_each(count,
+                       LatticeCellOfSegment<Dim>{{cell_}, segments_.data(), keys_.data(), numbers_.data(), is_kept});
+    executor_.sort(keys_.data(), numbers_.data(), sorted_keys_.data(), by_block_.data(), count);
+    unique_.find(sorted_keys_, 0, cells_, &first_of_cell_);
+    executor_.for_each(cells_.size(), MergeSmall<Ground, Dim>{model_, cell_, ground, count, cells_.size(),
+                                                              first_of_cell_.data(), by_block_.data(), segments_.data(),
+                                                              is_kept, budgets_.parts(cells_.size())});
+    state_.budget += budgets_.total();
+    keep_marked();
+  }
 
+  void step(double thickness, double duration) {
+    executor_.for_each(segments_.size(), StepColumns<Dim>{model_, thickness, duration, segments_.data(),
+                                                          budgets_.parts(segments_.size())});
+    state_.budget += budgets_.total();
+  }
+
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+
+  Executor& executor_;
   ColumnsModel model_;
+  double cell_;
   Vector<double, Dim> gravity_;
-  std::vector<Segment> segments_;
-  // Stencils of this step, by segment, and the segments above a block: those of block b begin at first_of_block_[b].
-  std::vector<Stencil> stencils_;
-  std::vector<std::uint32_t> first_of_block_, by_block_;
-  std::vector<std::array<typename mpm::RecordsOf<mpm::BaseState, Dim>::Record, Patch::nodes>> patches_;  // by block
-  std::vector<InContact> contact_;  // by block with nodes on the ground, and node of layer 0
-  ColumnLedger budget_;
-  std::int64_t next_id_ = 0;
-  bool checks_gaps_ = true;
+  SegmentsState<Dim> state_;  // but for the segments
+  exec::Array<Segment, Executor> segments_{executor_}, kept_{executor_};
+  exec::Array<BaseStencil<Dim>, Executor> stencils_{executor_};  // of this step, by segment
+  exec::Array<std::uint64_t, Executor> keys_{executor_}, sorted_keys_{executor_}, cells_{executor_},
+      bare_cells_{executor_};
+  exec::Array<std::uint32_t, Executor> numbers_{executor_}, by_block_{executor_}, first_of_block_{executor_},
+      first_of_cell_{executor_}, any_{executor_};
+  exec::Array<std::int32_t, Executor> ground_block_{executor_};
+  exec::Array<BaseRecord<Dim>, Executor> states_of_segments_{executor_}, patches_{executor_}, records_{executor_};
+  exec::Array<double, Executor> areas_{executor_};              // of segments, to be added to the nodes [m2]
+  exec::Array<InContact, Executor> contact_{executor_};         // of nodes of layer 0
+  exec::Array<ContactOfNode, Executor> divided_{executor_};     // the same
+  exec::Array<ColumnMotion<Dim>, Executor> motion_{executor_};  // the same
+  exec::Array<SegmentBelow, Executor> summaries_{executor_};
+  exec::Selection<Executor> selection_{executor_};
+  exec::UniqueKeys<Executor> unique_{executor_};
+  exec::OrderedSum<ColumnLedger, Executor> budgets_{executor_};
 };
 
 }  // namespace thawslide::band

@@ -1,5 +1,6 @@
 // Nodes around a basal segment: those on the ground, of layer 0 of the grid, with the weights of cubic B-splines, which
-// reach two cells along each horizontal axis. The segments above one block use the nodes of its patch.
+// reach two cells along each horizontal axis. The segments above one block use the nodes of its patch. For host and
+// device.
 #pragma once
 
 #include <array>
@@ -8,7 +9,8 @@
 #include <cstdint>
 
 #include "base/linear.hpp"
-#include "mpm/sparse_grid.hpp"
+#include "exec/key_lists.hpp"
+#include "mpm/tile_tables.hpp"
 
 namespace thawslide::band {
 
@@ -17,69 +19,48 @@ template <int Dim>
 struct BasePatch {
   using T = mpm::Tile<Dim>;
   static constexpr int horizontal = Dim - 1, before = 1, edge = T::edge + before + 2;
-  static constexpr auto nodes = static_cast<std::size_t>(mpm::power(edge, horizontal));
+  static constexpr auto rows = static_cast<std::size_t>(mpm::power(edge, horizontal - 1));
+  static constexpr auto nodes = rows * edge;
   static constexpr auto nodes_of_layer = static_cast<std::size_t>(T::rows);  // of a block: its first nodes
+  static constexpr int directions = mpm::power(3, horizontal);               // of blocks on the ground around a block
 
-  // Calls visit(block, node, place) for each node of the patch of block b that is in an active block.
-  template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE static void for_each_node(const mpm::SparseGrid<Dim>& grid, std::size_t b,
-                                                    const Visit& visit) {
-    const std::int32_t* about = grid.blocks_about_block(b);
-    for (int direction = 0; direction < mpm::power(3, horizontal); ++direction) {
-      if (const std::int32_t block = about[in_layer(direction)]; block != KeyIndex::absent) {
-        for_each_shared(direction, [&](std::size_t node, std::size_t place) {
-          visit(static_cast<std::size_t>(block), node, place);
-        });
-      }
-    }
+  // Number of the block in a direction from block b, or exec::absent.
+  THAWSLIDE_HD static std::int32_t block_about(const mpm::BlockTables<Dim>& tables, std::size_t b, int direction) {
+    return tables.blocks_about_block[b * static_cast<std::size_t>(T::stencil) +
+                                     static_cast<std::size_t>(direction + directions)];
   }
-  // Calls visit(block, node, place) for each node of block b that is in the patch of an active block.
-  template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE static void for_each_patch(const mpm::SparseGrid<Dim>& grid, std::size_t b,
-                                                     const Visit& visit) {
-    const std::int32_t* about = grid.blocks_about_block(b);
-    for (int direction = 0; direction < mpm::power(3, horizontal); ++direction) {
-      if (const std::int32_t block = about[in_layer(direction)]; block != KeyIndex::absent) {
-        for_each_shared(mpm::power(3, horizontal) - 1 - direction, [&](std::size_t node, std::size_t place) {
-          visit(static_cast<std::size_t>(block), node, place);
-        });
-      }
-    }
-  }
-  // Nodes of the patch of a block by place; without an active block, block is KeyIndex::absent.
+  // Node at a place of the patch of block b; without an active block, block is exec::absent.
   struct Node {
-    std::int32_t block = KeyIndex::absent;
-    std::size_t node = 0;
-  };
-  static std::array<Node, nodes> nodes_at(const mpm::SparseGrid<Dim>& grid, std::int32_t b) {
-    std::array<Node, nodes> at;
-    if (b != KeyIndex::absent) {
-      for_each_node(grid, static_cast<std::size_t>(b), [&](std::size_t block, std::size_t node, std::size_t place) {
-        at[place] = {static_cast<std::int32_t>(block), node};
-      });
-    }
-    return at;
-  }
+    std::int32_t block;
+    std::size_t node;
 
- private:
-  // Direction in the neighbourhood of a block, from one among the blocks on the ground.
-  static std::size_t in_layer(int direction) { return static_cast<std::size_t>(direction + mpm::power(3, horizontal)); }
-  // Calls visit(node, place) for the nodes that the patch shares with the block in a direction.
-  template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE static void for_each_shared(int direction, const Visit& visit) {
-    std::array<int, 2> first{}, last{1, 1}, shift{};
-    for (std::size_t a = 0; a < horizontal; ++a, direction /= 3) {
-      const int to = direction % 3 - 1;
-      first[a] = to < 0 ? T::edge - before : 0;
-      last[a] = to > 0 ? edge - before - T::edge : T::edge;
-      shift[a] = to * T::edge + before;
+    // Its number among the nodes of layer 0 of all blocks.
+    [[nodiscard]] THAWSLIDE_HD std::size_t number() const {
+      return static_cast<std::size_t>(block) * nodes_of_layer + node;
     }
-    for (int y = first[1]; y < last[1]; ++y) {
-      for (int x = first[0]; x < last[0]; ++x) {
-        visit(static_cast<std::size_t>(y * T::edge + x),
-              static_cast<std::size_t>((y + shift[1]) * edge + x + shift[0]));
+  };
+  THAWSLIDE_HD static Node node_at(const mpm::BlockTables<Dim>& tables, std::size_t b, int place) {
+    int direction = 0, node = 0;
+    for (int a = 0, neighbours = 1, size = 1; a < horizontal; ++a, neighbours *= 3, size *= T::edge) {
+      const int along = place % edge - before;
+      const int tile = along >> T::edge_bits;  // rounds down
+      place /= edge;
+      direction += (tile + 1) * neighbours;
+      node += (along - tile * T::edge) * size;
+    }
+    return {block_about(tables, b, direction), static_cast<std::size_t>(node)};
+  }
+  // Place of a node of layer 0 in the patch of the block in a direction, or exec::absent if it is outside.
+  THAWSLIDE_HD static std::int32_t place_in(int direction, std::size_t node) {
+    int place = 0, from = static_cast<int>(node);
+    for (int a = 0, size = 1; a < horizontal; ++a, size *= edge, direction /= 3, from /= T::edge) {
+      const int along = from % T::edge - (direction % 3 - 1) * T::edge + before;
+      if (along < 0 || along >= edge) {
+        return exec::absent;
       }
+      place += along * size;
     }
+    return place;
   }
 };
 
@@ -91,61 +72,83 @@ class BaseStencil {
 
  public:
   BaseStencil() = default;
-  BaseStencil(const mpm::SparseGrid<Dim>& grid, const Vector<double, Dim>& position) : cell_(grid.cell()) {
+  THAWSLIDE_HD BaseStencil(const mpm::BlockTables<Dim>& tables, double cell, const Vector<double, Dim>& position)
+      : cell_(cell) {
     typename T::Index tile{};
-    int step = 1;
     for (std::size_t a = 0; a < horizontal; ++a) {
-      const double in_cells = position[static_cast<int>(a)] * grid.inverse_cell(), whole = std::floor(in_cells);
+      const double in_cells = position[static_cast<int>(a)] * (1.0 / cell), whole = std::floor(in_cells);
       const int node = static_cast<int>(whole);
       tile[a] = node >> T::edge_bits;  // rounds down
-      lowest_ += step * (node - tile[a] * T::edge);
-      step *= BasePatch<Dim>::edge;
-      weight_[a] = cubic_weights(in_cells - whole);
-      first_[a] = (whole - 1.0 - in_cells) * grid.cell();
+      lowest_[a] = node - tile[a] * T::edge;
+      set_cubic_weights(in_cells - whole, weight_[a]);
+      first_[a] = (whole - 1.0 - in_cells) * cell;
     }
-    block_ = grid.block_at(T::key(tile));
+    block_ = exec::index_of_key(tables.block_keys, tables.blocks, T::key(tile));
   }
 
-  // Block below the segment, or KeyIndex::absent if no part of the sliding mass is near.
-  [[nodiscard]] std::int32_t block() const { return block_; }
+  // Block below the segment, or exec::absent if no part of the sliding mass is near.
+  [[nodiscard]] THAWSLIDE_HD std::int32_t block() const { return block_; }
 
   // Calls visit(place, weight, from_segment) for the nodes in reach, by their place in the patch of the block.
   // from_segment: horizontal vector from the segment to the node [m].
   template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE void for_each_with_offset(const Visit& visit) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_each_with_offset(const Visit& visit) const {
     Vector<double, Dim - 1> from_segment;
     for (int y = 0; y < (Dim == 3 ? width : 1); ++y) {
-      double of_row = 1.0;
       if constexpr (Dim == 3) {
-        of_row = weight_[1][static_cast<std::size_t>(y)];
         from_segment[1] = first_[1] + static_cast<double>(y) * cell_;
       }
+      const int row = Dim == 3 ? lowest_[horizontal - 1] + y : 0;
+      const double of_row = weight_of_row(row);
       for (int x = 0; x < width; ++x) {
         from_segment[0] = first_[0] + static_cast<double>(x) * cell_;
-        visit(static_cast<std::size_t>(lowest_ + y * BasePatch<Dim>::edge + x),
-              of_row * weight_[0][static_cast<std::size_t>(x)], from_segment);
+        visit(row * BasePatch<Dim>::edge + lowest_[0] + x, of_row * weight_[0][x], from_segment);
       }
     }
   }
+  // Calls visit(node, weight) for the nodes in reach that are in an active block (BasePatch::Node).
   template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
-    for_each_with_offset([&](std::size_t place, double weight, const Vector<double, Dim - 1>& /*from_segment*/)
-                             THAWSLIDE_INLINE_LAMBDA { visit(place, weight); });
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_each_node(const mpm::BlockTables<Dim>& tables,
+                                                          const Visit& visit) const {
+    if (block_ == exec::absent) {
+      return;
+    }
+    for_each_with_offset(
+        [&](int place, double weight, const Vector<double, Dim - 1>& /*from_segment*/) THAWSLIDE_INLINE_LAMBDA {
+          const auto node = BasePatch<Dim>::node_at(tables, static_cast<std::size_t>(block_), place);
+          if (node.block != exec::absent) {
+            visit(node, weight);
+          }
+        });
+  }
+  // Calls visit(x, weight) for the nodes in reach in one row of the patch.
+  template <class Visit>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_each_in_row(int row, const Visit& visit) const {
+    const double of_row = weight_of_row(row);
+    for (int x = 0; of_row != 0.0 && x < width; ++x) {
+      visit(lowest_[0] + x, of_row * weight_[0][x]);
+    }
   }
 
  private:
+  [[nodiscard]] THAWSLIDE_HD double weight_of_row(int row) const {
+    const int y = Dim == 3 ? row - lowest_[horizontal - 1] : 0;
+    return Dim == 2 ? 1.0 : y < 0 || y >= width ? 0.0 : weight_[horizontal - 1][y];
+  }
   // Weights of the four nodes around a position at fraction t between the inner two.
-  static std::array<double, width> cubic_weights(double t) {
+  THAWSLIDE_HD static void set_cubic_weights(double t, double* weight) {
     const double s = 1.0 - t, sixth = 1.0 / 6.0;
-    return {sixth * s * s * s, sixth * (4.0 - 3.0 * t * t * (2.0 - t)), sixth * (4.0 - 3.0 * s * s * (2.0 - s)),
-            sixth * t * t * t};
+    weight[0] = sixth * s * s * s;
+    weight[1] = sixth * (4.0 - 3.0 * t * t * (2.0 - t));
+    weight[2] = sixth * (4.0 - 3.0 * s * s * (2.0 - s));
+    weight[3] = sixth * t * t * t;
   }
 
-  std::int32_t block_ = KeyIndex::absent;
-  int lowest_ = 0;                          // place of the first node in the patch
-  double cell_ = 0;                         // [m]
-  std::array<double, horizontal> first_{};  // from the segment to the first node along each axis [m]
-  std::array<std::array<double, width>, horizontal> weight_{};
+  std::int32_t block_ = exec::absent;
+  int lowest_[horizontal] = {};    // along each axis of the patch: the first node in reach
+  double cell_ = 0;                // [m]
+  double first_[horizontal] = {};  // from the segment to the first node along each axis [m]
+  double weight_[horizontal][width] = {};
 };
 
 }  // namespace thawslide::band

@@ -3,6 +3,7 @@
 
 #include "band/heat_kernels.hpp"
 #include "band/pressure_kernels.hpp"
+#include "mpm/scalar_index.hpp"
 
 namespace thawslide::band {
 

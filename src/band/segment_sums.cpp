@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "band/basal_segments.hpp"
+#include "band/base_sums.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
@@ -41,12 +41,12 @@ void for_each_number(BasalSegment<Dim>& segment, const Visit& visit) {
 
 // Water in pores full of melt [kg/m3].
 double water_of_full_pores(const ColumnsModel& model) {
-  return std::visit([](const auto& column) { return column.porosity * column.phases.water_density; }, model.column);
+  return model.column.visit([](const auto& column) { return column.porosity * column.phases.water_density; });
 }
 
 template <int Dim>
 physics::ColumnGrid grid_of(const ColumnsModel& model, const BasalSegment<Dim>& segment) {
-  return std::visit([&](const auto& column) { return physics::grid_of(column, segment.column); }, model.column);
+  return model.column.visit([&](const auto& column) { return physics::grid_of(column, segment.column); });
 }
 
 // True if a cell of the band has no water left, as ice or melt.
@@ -59,11 +59,12 @@ bool is_dry(const BasalSegment<Dim>& segment) {
 }  // namespace
 
 template <int Dim>
-ColumnSums BasalSegments<Dim>::sums() const {
-  std::vector<ColumnSums> of_segment(segments_.size());
-  parallel_for(segments_.size(), [&](std::size_t p) {
-    const Segment& segment = segments_[p];
-    const physics::ColumnVolumes volumes = volumes_of(segment);
+ColumnSums sums_of(const BaseColumns<Dim>& columns) {
+  const auto segments = columns.segments();
+  std::vector<ColumnSums> of_segment(segments.size());
+  parallel_for(segments.size(), [&](std::size_t p) {
+    const BasalSegment<Dim>& segment = segments[p];
+    const physics::ColumnVolumes volumes = volumes_of(columns.model(), segment);
     of_segment[p] = {segment.area,
                      segment.area_of_column * physics::heat_of(segment.column) + segment.heat,
                      segment.heat,
@@ -79,18 +80,19 @@ ColumnSums BasalSegments<Dim>::sums() const {
 }
 
 template <int Dim>
-BaseMeans BasalSegments<Dim>::means() const {
+BaseMeans means_of(const BaseColumns<Dim>& columns) {
+  const auto segments = columns.segments();
   constexpr double wet_fraction = 1e-3;  // of full pores; less water has just seeped in, and boils next
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  const double full = water_of_full_pores(model_);
+  const double full = water_of_full_pores(columns.model());
   struct Extremes {
     double max_temperature, max_wet_temperature, pressure_ratio;
     bool dry;
   };
-  std::vector<Extremes> extremes(segments_.size());
-  parallel_for(segments_.size(), [&](std::size_t p) {
-    const Segment& segment = segments_[p];
-    const auto grid = grid_of(model_, segment);
+  std::vector<Extremes> extremes(segments.size());
+  parallel_for(segments.size(), [&](std::size_t p) {
+    const BasalSegment<Dim>& segment = segments[p];
+    const auto grid = grid_of(columns.model(), segment);
     Extremes& found = extremes[p];
     found = {-celsius_to_kelvin, -celsius_to_kelvin, 0.0, is_dry(segment)};
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
@@ -105,8 +107,8 @@ BaseMeans BasalSegments<Dim>::means() const {
   });
   BaseMeans result;
   double area = 0, dry_area = 0, max_temperature = -celsius_to_kelvin, max_wet_temperature = max_temperature;
-  for (std::size_t p = 0; p < segments_.size(); ++p) {
-    const Segment& segment = segments_[p];
+  for (std::size_t p = 0; p < segments.size(); ++p) {
+    const BasalSegment<Dim>& segment = segments[p];
     const physics::BandMeans means = current_means(segment);
     area += segment.area;
     dry_area += extremes[p].dry ? segment.area : 0.0;
@@ -130,13 +132,13 @@ BaseMeans BasalSegments<Dim>::means() const {
 }
 
 template <int Dim>
-std::vector<double> BasalSegments<Dim>::state() const {
-  std::vector<double> numbers{static_cast<double>(next_id_), checks_gaps_ ? 1.0 : 0.0,
-                              static_cast<double>(segments_.size())};
-  ColumnLedger budget = budget_;
+std::vector<double> numbers_of(const BaseColumns<Dim>& columns) {
+  SegmentsState<Dim> state = columns.state();
+  std::vector<double> numbers{static_cast<double>(state.next_id), state.checks_gaps ? 1.0 : 0.0,
+                              static_cast<double>(state.segments.size())};
   const auto add = [&](const double& number) { numbers.push_back(number); };
-  budget.for_each(add);
-  for (Segment segment : segments_) {
+  state.budget.for_each(add);
+  for (BasalSegment<Dim>& segment : state.segments) {
     numbers.push_back(static_cast<double>(segment.id));
     numbers.push_back(segment.touched ? 1.0 : 0.0);
     for_each_number(segment, add);
@@ -145,31 +147,34 @@ std::vector<double> BasalSegments<Dim>::state() const {
 }
 
 template <int Dim>
-void BasalSegments<Dim>::restore(const std::vector<double>& numbers) {
-  StateNumbers state(numbers, "band columns");
+void restore(const std::vector<double>& numbers, BaseColumns<Dim>& columns) {
+  StateNumbers read(numbers, "band columns");
+  SegmentsState<Dim> state;
   std::size_t of_ledger = 0, of_segment = 2;  // number of state entries
-  budget_.for_each([&](double&) { ++of_ledger; });
-  Segment any;
+  state.budget.for_each([&](double&) { ++of_ledger; });
+  BasalSegment<Dim> any;
   for_each_number(any, [&](double&) { ++of_segment; });
-  next_id_ = state.whole(largest_whole);
-  checks_gaps_ = state.next() != 0.0;
-  segments_.assign(state.count(of_segment, of_ledger), Segment{});
-  const auto set = [&](double& number) { number = state.next(); };
-  budget_.for_each(set);
-  for (Segment& segment : segments_) {
-    segment.id = state.whole(next_id_);
-    segment.touched = state.next() != 0.0;
+  state.next_id = read.whole(largest_whole);
+  state.checks_gaps = read.next() != 0.0;
+  state.time_since_step = columns.time_since_step();
+  state.segments.resize(read.count(of_segment, of_ledger));
+  const auto set = [&](double& number) { number = read.next(); };
+  state.budget.for_each(set);
+  for (BasalSegment<Dim>& segment : state.segments) {
+    segment.id = read.whole(state.next_id);
+    segment.touched = read.next() != 0.0;
     for_each_number(segment, set);
-    keep_means(model_, segment);
+    keep_means(columns.model(), segment);
   }
-  state.expect_end();
+  read.expect_end();
+  columns.set(state);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                \
-  template ColumnSums BasalSegments<Dim>::sums() const;           \
-  template BaseMeans BasalSegments<Dim>::means() const;           \
-  template std::vector<double> BasalSegments<Dim>::state() const; \
-  template void BasalSegments<Dim>::restore(const std::vector<double>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                       \
+  template ColumnSums sums_of<Dim>(const BaseColumns<Dim>&);             \
+  template BaseMeans means_of<Dim>(const BaseColumns<Dim>&);             \
+  template std::vector<double> numbers_of<Dim>(const BaseColumns<Dim>&); \
+  template void restore<Dim>(const std::vector<double>&, BaseColumns<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -114,13 +114,7 @@ struct FindNeighbours {
   }
 };
 
-template <class T>
-struct Fill {
-  T* numbers;
-  T number;
-
-  THAWSLIDE_HD void operator()(std::size_t k) const { numbers[k] = number; }
-};
+using exec::Fill;
 
 // Keep copies one sum; Add adds it to another sum.
 template <class Sum>

@@ -7,6 +7,7 @@
 #include "device/node_access.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
+#include "mpm/base_states.hpp"
 #include "mpm/section_width.hpp"
 #include "terrain/contact_stage.hpp"
 
@@ -66,13 +67,14 @@ struct GatherBasalNode {
   NodeStageArgs<Dim> step;
   const std::uint32_t* candidates;
   double smallest_area, gravity;
-  const double* columns;  // records of BaseState by candidate; null without band columns
+  mpm::BaseStates<Dim> columns;
   terrain::BasalNode* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    const double* state = columns != nullptr ? columns + k * mpm::BaseState::size<Dim> : nullptr;
+    constexpr std::size_t block_nodes = NodeStageArgs<Dim>::block_nodes;
     const std::size_t node = candidates[k];
-    terrain::gather_basal_node(step, node, smallest_area, gravity, true, state, bases[k]);
+    terrain::gather_basal_node(step, node, smallest_area, gravity, true,
+                               columns.at(node / block_nodes, node % block_nodes), bases[k]);
   }
 };
 

@@ -51,6 +51,8 @@ class Solver {
   virtual void sort_in_memory() = 0;
   // Copies to the same number of particles, in their original order.
   virtual void copy_to(const mpm::ParticleView<Dim>& particles) = 0;
+  // Basal segments; requires band columns.
+  [[nodiscard]] virtual band::SegmentsState<Dim> segments() const = 0;
   // Measures stages [s] from now on, with a synchronization after each.
   virtual void time_stages() = 0;
   [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <variant>
 
-#include "device/band_columns.hpp"
 #include "device/band_stages.hpp"
 #include "device/deform_material.hpp"
 #include "device/erodible_bed.hpp"
@@ -20,6 +19,7 @@
 #include "device/step_passes.hpp"
 #include "mpm/body_contact.hpp"
 #include "mpm/front_stage.hpp"
+#include "mpm/monitor_sums.hpp"
 #include "mpm/motion_stages.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "terrain/band_marks_kernel.hpp"
@@ -35,10 +35,21 @@ struct SubtractForce {
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const { contact->force[0] -= *of_walls; }
 };
 
-// cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
+// Unit normals into the ground at nodes, for band columns.
+template <int Dim>
+struct NormalsAtNodes {
+  const terrain::GroundAtNode<Dim>* known;  // by node
+
+  [[nodiscard]] THAWSLIDE_HD const Vector<double, Dim>& operator()(std::size_t block, std::size_t node) const {
+    return known[NodeStageArgs<Dim>::block_nodes * block + node].normal;
+  }
+};
+
+// cell: mesh size [m]. bases: by candidate node.
 template <class Backend, int Dim>
 void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, double cell,
-                           const Ground<Backend, Dim>& ground, const double* columns, terrain::BasalNode* bases) {
+                           const Ground<Backend, Dim>& ground, const mpm::BaseStates<Dim>& columns,
+                           terrain::BasalNode* bases) {
   const std::size_t count = ground.candidate_count();
   const std::uint32_t* candidates = ground.candidates();
   backend.for_each(count, PressOnGround<Dim>{step, candidates});
@@ -62,8 +73,11 @@ class Step {
       : passes_(backend, model, particles, count, callbacks.ground),
         sums_(backend, 1),
         band_(passes_, callbacks, sums_.data()),
-        maps_(backend, model.cell, model.half_sizes),
-        band_columns_(backend, callbacks.columns) {
+        maps_(backend, model.cell, model.half_sizes) {
+    if (model.band_columns) {
+      band_columns_.emplace(backend, *model.band_columns, model.cell, model.motion.gravity);
+      band_columns_->set(model.segments);
+    }
     if (callbacks.bed != nullptr) {
       bed_.emplace(backend, *callbacks.bed);
     }
@@ -78,6 +92,8 @@ class Step {
 
   // Copies to the same number of particles, in their original order.
   void copy_to(const mpm::ParticleView<Dim>& particles) { passes_.particles.copy_to(particles); }
+  // Requires band columns.
+  [[nodiscard]] band::SegmentsState<Dim> segments() const { return band_columns_->state(); }
   void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) {
     blocks = passes_.cells.block_keys();
     records = passes_.template of<mpm::Momentum>().get();
@@ -144,6 +160,7 @@ class Step {
   void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
     if constexpr (Dim == 3) {
       sample.moments = passes_.sum_over_particles(MomentsOf{}, moments_);
+      sample.segments = band_columns_ ? band_columns_->summaries() : std::vector<band::SegmentBelow>();
       maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), sample);
     }
   }
@@ -185,7 +202,6 @@ class Step {
     }
     if (passes_.ground.exists()) {
       passes_.ground.update(blocks);
-      band_columns_.update(blocks);
       if (bed_) {
         bed_->update(blocks, passes_.ground);
       }
@@ -218,7 +234,7 @@ class Step {
                   terrain::AddNearGround<Dim>{passes_.model.motion.phases, passes_.model.motion.lubrication});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
-                            band_columns_.states(), bases_.data());
+                            states_of_columns(step), bases_.data());
       if (strength != nullptr && !step.options.base_is_fixed) {
         strengths = given_.by(*strength, passes_.model.base, step, passes_.ground, bases_);
       }
@@ -231,11 +247,36 @@ class Step {
     } else {
       resolve_contact(step, strengths, NoBeds{});
     }
-    band_columns_.follow(step.nodes);
+    update_columns(step);
     if (passes_.ground.exists()) {
       passes_.backend.for_each(passes_.particles.size(),
                                VisitInMemory<Dim, terrain::LeaveBand<Dim>>{passes_.particles.view(), {}});
       passes_.run(passes_.linear(SeesCandidates<Dim>{passes_.cells.tables().tile_keys}), terrain::MarkBand<Dim>{dt});
+    }
+  }
+
+  [[nodiscard]] static mpm::BlockTables<Dim> blocks_of(const NodeStageArgs<Dim>& step) {
+    return {step.tables.blocks, step.tables.block_keys, step.tables.blocks_about_block};
+  }
+  [[nodiscard]] mpm::BaseStates<Dim> states_of_columns(const NodeStageArgs<Dim>& step) {
+    if (!band_columns_) {
+      return {};
+    }
+    band_columns_->to_nodes(blocks_of(step));
+    return band_columns_->states();
+  }
+  void update_columns(const NodeStageArgs<Dim>& step) {
+    if (band_columns_) {
+      using OfColumns = terrain::GroundAnywhere<Dim, ColumnHeights<Dim>>;
+      const OfColumns ground{passes_.model.columns,
+                             {passes_.model.columns, column_heights_.data()},
+                             passes_.model.half_sizes.front(),
+                             passes_.model.cell,
+                             passes_.width()};
+      band_columns_->update(
+          band::BaseInStep<ContactNodes<Dim>, OfColumns, NormalsAtNodes<Dim>, Dim>{
+              blocks_of(step), step.nodes, ground, {passes_.ground.known()}},
+          passes_.model.band_thickness(step.time), step.dt);
     }
   }
 
@@ -344,8 +385,8 @@ class Step {
   exec::Array<double, Backend> force_of_walls_{passes_.backend, 1};  // of a section, along x [N]
   BandStages<Backend, Shape, Dim> band_;
   Maps<Backend> maps_;
-  BandColumns<Backend, Dim> band_columns_;
-  std::optional<ErodibleBed<Backend, Dim>> bed_;  // none without an erodible bed
+  std::optional<band::BasalSegments<Backend, Dim>> band_columns_;  // none unless the band consists of columns
+  std::optional<ErodibleBed<Backend, Dim>> bed_;                   // none without an erodible bed
   exec::Array<double, Backend> column_heights_{passes_.backend};
   exec::Array<double, Backend> free_gaps_{passes_.backend};
   GivenStrengths<Backend, Dim> given_{passes_.backend};

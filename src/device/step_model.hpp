@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "band/basal_segments.hpp"
 #include "band/columns.hpp"
 #include "band/parameters.hpp"
 #include "device/step_sums.hpp"
@@ -48,6 +50,8 @@ struct StepModel {
   band::BandParameters<Dim> band;
   std::vector<double> free_gaps;                      // as in band::FreeGaps
   std::function<double(double time)> band_thickness;  // [m]; 0: no band, xi = 1
+  std::optional<band::ColumnsModel> band_columns;     // empty unless the band consists of columns
+  band::SegmentsState<Dim> segments;                  // with columns, at `time`
   bool rescales_band = true;                          // off: scaling is constant
 
   [[nodiscard]] bool has_band() const { return band.heat || band.pressure; }
@@ -58,20 +62,6 @@ struct StepModel {
 template <int Dim>
 using GroundQuery = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes)>;
 
-// Band columns below the sliding mass, stored on the CPU; empty without band columns.
-struct HostColumns {
-  // Called after the active blocks have changed, with their ascending keys. Returns the numbers of the blocks whose
-  // nodes `follow` needs.
-  std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> update_blocks;
-  // Records of BaseState of the candidate nodes, in the order of blocks and nodes.
-  std::function<const std::vector<double>&()> states;
-  // Called after contact, with a record of column_record_size<Dim> numbers per node of the requested blocks.
-  std::function<void(const std::vector<double>& nodes)> follow;
-};
-// Per node: the record of Contact, mass [kg] and mid-step velocity [m/s].
-template <int Dim>
-inline constexpr std::size_t column_record_size = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
-
 // CPU functions called, and data used, during a step.
 template <int Dim>
 struct HostCallbacks {
@@ -80,8 +70,7 @@ struct HostCallbacks {
   std::function<std::vector<double>()> column_heights;
   // As in band/slide_columns.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPosition<Dim> slope_cosine, normal_gravity;
-  band::OfPosition<Dim> width;  // relative; empty if uniform
-  HostColumns columns;
+  band::OfPosition<Dim> width;       // relative; empty if uniform
   terrain::Bed<Dim>* bed = nullptr;  // erodible, on the CPU; null if there is none
 };
 
@@ -90,6 +79,7 @@ struct MapSample {
   std::vector<std::uint64_t> keys;  // of cells below the active tiles, ascending (mpm::map_cell_key)
   std::vector<mpm::MapSums> sums;   // by key
   mpm::MassMoments moments;
+  std::vector<band::SegmentBelow> segments;  // empty without band columns
 };
 
 }  // namespace thawslide::device

@@ -50,6 +50,16 @@ class Array {
     count_ = count;
   }
 
+  // Resizes and keeps the contents.
+  void grow(std::size_t count) {
+    if (count > capacity_) {
+      Array larger(*executor_, count + count / 4);
+      executor_->copy(larger.numbers_, numbers_, count_);
+      swap(larger);
+    }
+    count_ = count;
+  }
+
   void set(const std::vector<T>& numbers) {
     resize(numbers.size());
     executor_->copy_in(numbers_, numbers.data(), count_);

@@ -29,6 +29,10 @@ class Cpu {
     std::copy_n(from, count, to);
   }
   template <class T>
+  void copy(T* to, const T* from, std::size_t count) {
+    std::copy_n(from, count, to);
+  }
+  template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
     std::copy_n(from, count, to);
   }
@@ -83,6 +87,11 @@ class Cpu {
       sorted_keys[k] = pairs_[k].first;
       sorted_values[k] = pairs_[k].second;
     }
+  }
+
+  void sort(const std::uint64_t* keys, std::uint64_t* sorted_keys, std::size_t count) {
+    std::copy_n(keys, count, sorted_keys);
+    std::sort(sorted_keys, sorted_keys + count);
   }
 
   // Exclusive prefix sum: sums[k] = numbers[0] + ... + numbers[k-1], for k = 0 .. count-1.

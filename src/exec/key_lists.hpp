@@ -1,6 +1,7 @@
 // Ascending lists of keys.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,23 @@
 namespace thawslide::exec {
 
 inline constexpr std::int32_t absent = -1;
+
+// Sets a mark to which several threads may write the same value.
+THAWSLIDE_HD inline void set_mark(std::uint32_t& mark, std::uint32_t value) {
+#ifdef __CUDA_ARCH__
+  mark = value;
+#else
+  std::atomic_ref(mark).store(value, std::memory_order_relaxed);
+#endif
+}
+
+template <class T>
+struct Fill {
+  T* numbers;
+  T number;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const { numbers[k] = number; }
+};
 
 // Lower bound: first place in [first, last) of an ascending list whose entry is not less than the key.
 THAWSLIDE_HD inline std::size_t first_not_below(const std::uint64_t* keys, std::size_t first, std::size_t last,

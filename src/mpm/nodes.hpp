@@ -1,6 +1,7 @@
 // Nodal records of the grid during a step.
 #pragma once
 
+#include "mpm/base_states.hpp"
 #include "mpm/records.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/vectors_in_records.hpp"
@@ -39,10 +40,10 @@ struct Nodes {
   SparseRecordsOf<Contact, Dim> contact;
   SparseRecordsOf<NearGround, Dim> near_ground{pool};
   SparseRecordsOf<UnreachedHeat, Dim> unreached_heat;
-  SparseRecordsOf<BaseState, Dim> base_state;            // with band columns
   SparseRecordsOf<SecantRates, Dim> secant_rates{pool};  // in blocks with temperature changes
   SparseRecordsOf<Seepage, Dim> seepage{pool};           // in blocks that water can seep to
   SparseRecordsOf<SeepingWater, Dim> seeping_water{pool};
+  BaseStates<Dim> base_states;
   ActivityMarks marks;
 
   template <class Name>

@@ -147,7 +147,6 @@ struct BaseState {
   static constexpr std::size_t slip = 5;            // [m]
   template <int Dim>
   static constexpr int size = 6;
-  static auto& in(auto& nodes) { return nodes.base_state; }
 };
 
 // Nodal heat and pore pressure read by particles: averages, or a prescribed temperature, and their changes.

@@ -78,6 +78,9 @@ class SparseGrid {
     return &blocks_about_block_[b * stencil];
   }
 
+  [[nodiscard]] BlockTables<Dim> block_tables() const {
+    return {blocks_.size(), blocks_.data(), blocks_about_block_.data()};
+  }
   // Tables for kernels, without the keys of particles; valid until the next change of the grid or of `memory`.
   [[nodiscard]] TileTables<Dim> tables(TableMemory& memory) const;
 

@@ -24,4 +24,12 @@ struct TileTables {
   const std::int32_t *blocks_about_tile, *tiles_about_block, *blocks_about_block;
 };
 
+// The part about blocks alone.
+template <int Dim>
+struct BlockTables {
+  std::size_t blocks;
+  const std::uint64_t* block_keys;         // ascending
+  const std::int32_t* blocks_about_block;  // as in TileTables
+};
+
 }  // namespace thawslide::mpm

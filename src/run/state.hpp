@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "band/basal_segments.hpp"
+#include "band/base_sums.hpp"
 #include "base/state_numbers.hpp"
 #include "sim/simulation.hpp"
 
@@ -12,7 +12,7 @@ namespace thawslide::run {
 template <int Dim>
 void add_state(const sim::Simulation<Dim>& simulation, NamedNumbers& blocks) {
   if (const auto* columns = simulation.band_columns()) {
-    blocks["band_columns"] = columns->state();
+    blocks["band_columns"] = band::numbers_of(*columns);
   }
   if (const auto* bed = simulation.bed()) {
     blocks["bed"] = bed->state();
@@ -23,7 +23,7 @@ void add_state(const sim::Simulation<Dim>& simulation, NamedNumbers& blocks) {
 template <int Dim>
 void restore_state(sim::Simulation<Dim>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
   simulation.restore(scalars);
-  if (simulation.band_columns() != nullptr) {
+  if (simulation.has_band_columns()) {
     simulation.restore_band_columns(block_of(blocks, "band_columns"));
   }
   if (simulation.bed() != nullptr) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "band/basal_segments.hpp"
+#include "band/base_sums.hpp"
 #include "base/rounding.hpp"
 #include "physics/boiling.hpp"
 
@@ -85,10 +85,10 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
   const auto* columns = simulation.band_columns();
   const bool mixes = std::isfinite(simulation.parameters().band.mixing_slip);
   const bool boils = columns != nullptr && simulation.parameters().heat.steam;
-  const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().max_temperature;
+  const double hottest = columns == nullptr ? warmest_particle(simulation) : band::means_of(*columns).max_temperature;
   const double first = boils ? unphysical_temperature : boiling;
   if (boils && !is_dry_) {
-    const auto& segments = columns->segments();
+    const auto segments = columns->segments();
     const auto dry = std::count_if(segments.begin(), segments.end(),
                                    [](const auto& segment) { return has_boiled_dry(segment.column); });
     if (dry > 0) {

@@ -13,7 +13,7 @@ std::vector<double> Simulation<Dim>::scalars() const {
                               static_cast<double>(clock_.step_number),
                               static_cast<double>(slide_->next_id),
                               static_cast<double>(slide_->split_count),
-                              base_.column_time,
+                              base_.columns ? base_.columns->time_since_step() : 0.0,
                               clock_.fixed.step,
                               clock_.fixed.from_time,
                               static_cast<double>(clock_.fixed.from_number)};
@@ -38,7 +38,9 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   clock_.step_number = state.whole(largest_whole);
   slide_->next_id = state.whole(largest_whole);
   slide_->split_count = state.whole(slide_->next_id);
-  base_.column_time = state.next_finite();
+  if (const double since_step = state.next_finite(); base_.columns) {
+    base_.columns->set_time_since_step(since_step);
+  }
   clock_.fixed.step = state.next_finite();
   clock_.fixed.from_time = state.next_finite();
   clock_.fixed.from_number = state.whole(clock_.step_number);

@@ -140,7 +140,15 @@ class Simulation {
   [[nodiscard]] const Budget<Dim>& budget() const { return budget_; }
   [[nodiscard]] const terrain::ContactWork<Dim>& contact() const { return sums_.contact; }
   // Null unless the band consists of columns.
-  [[nodiscard]] const band::BasalSegments<Dim>* band_columns() const { return base_.columns.get(); }
+  [[nodiscard]] const band::BaseColumns<Dim>* band_columns() const {
+    solver().copy_columns_back();
+    return base_.columns.get();
+  }
+  // Of a step on the CPU; empty without band columns.
+  [[nodiscard]] std::vector<band::SegmentBelow> segments_below() const requires(Dim == 3) {
+    return base_.columns ? base_.columns->summaries() : std::vector<band::SegmentBelow>();
+  }
+  [[nodiscard]] bool has_band_columns() const { return base_.columns != nullptr; }
   void restore_band_columns(const std::vector<double>& state) { restore_columns(setup_, state, base_); }
   // Null without an erodible bed.
   [[nodiscard]] const terrain::Bed<Dim>* bed() const { return base_.bed ? &*base_.bed : nullptr; }

@@ -10,6 +10,7 @@
 #include "base/select.hpp"
 #include "mpm/body_sizes.hpp"
 #include "mpm/scalar_index.hpp"
+#include "mpm/section_width.hpp"
 #include "mpm/shape.hpp"
 
 namespace thawslide::terrain {
@@ -95,6 +96,31 @@ THAWSLIDE_HD GroundBelow<Dim> ground_below(const Vector<double, Dim - 1>& point,
   }
   return found;
 }
+
+// Ground for a particle of a size, below any horizontal position.
+template <int Dim, class HeightOf>
+struct GroundAnywhere {
+  using Point = Vector<double, Dim - 1>;
+  struct Below {
+    double height;               // [m]
+    Vector<double, Dim> normal;  // into the ground
+  };
+
+  ColumnChunks<Dim> columns;
+  HeightOf height;
+  double half, cell;  // half size of the particle, in cells; [m]
+  mpm::WidthView section;
+
+  [[nodiscard]] THAWSLIDE_HD Below below(const Point& point) const {
+    const GroundBelow<Dim> ground = ground_below<Dim>(point, half, cell, columns, height);
+    Vector<double, Dim> normal;
+    normal.template head<Dim - 1>() = ground.slope;
+    normal[Dim - 1] = -1.0;
+    return {ground.height, normal.normalized()};
+  }
+  // Of a 2D section, relative.
+  [[nodiscard]] THAWSLIDE_HD double width(const Point& point) const { return section.at(point[0]); }
+};
 
 // Sets the height above the ground and the slopes of the ground from the position of a particle.
 template <int Dim, class HeightOf>

@@ -34,8 +34,7 @@ void find_contact(const BlockStep<Dim>& step, double cell, const ContactModel<Di
   const double smallest = smallest_area * (Dim == 2 ? cell : cell * cell);
   BasalNode base;
   for (std::size_t k = 0; k < step.candidates; ++k) {
-    const double* columns =
-        model.band_columns ? step.nodes.template read<mpm::BaseState>(NodeAt{step.block, k}) : nullptr;
+    const double* columns = step.nodes.nodes.base_states.at(step.block, k);
     gather_basal_node(step, NodeAt{step.block, k}, smallest, model.law.gravity, reads_mass, columns, base);
     if (base.area > 0.0) {
       contact.node.push_back(k);
@@ -146,7 +145,7 @@ template <int Dim>
 bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
-      if (nodes.base(b, k)[BaseLoad::load] > 0.0 && !(nodes.base_state(b, k)[mpm::BaseState::area] > 0.0)) {
+      if (nodes.base(b, k)[BaseLoad::load] > 0.0 && !(nodes.base_states.at(b, k)[mpm::BaseState::area] > 0.0)) {
         return true;
       }
     }

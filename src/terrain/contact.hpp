@@ -18,7 +18,7 @@ struct ContactModel : ContactOptions {
   BasalLaw law;
   mpm::SectionWidth width;    // of a 2D section
   bool reads_mass = true;     // the laws depend on P, T, S, n_e or the slip of the mass at nodes
-  bool band_columns = false;  // the basal state is that of nodes.base_state
+  bool band_columns = false;  // the basal state is that of nodes.base_states
 };
 
 // Fills nodes.base of the blocks with candidate nodes: load on the ground and covered area. Requires the clearance in
@@ -28,7 +28,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
                      const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time, double dt,
                      mpm::Nodes<Dim>& nodes);
 
-// True if a loaded node has no band column in reach (nodes.base_state).
+// True if a loaded node has no band column in reach (nodes.base_states).
 template <int Dim>
 bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes);
 

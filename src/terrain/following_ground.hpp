@@ -72,6 +72,16 @@ class FollowingGround final : public Surface<Dim> {
   // Sets the height above the ground and the slopes of the ground of all particles, from their positions.
   void locate(mpm::Particles<Dim>& particles) const;
 
+  // Height of a column of nodes [m], for GroundAnywhere.
+  struct HeightOfColumn {
+    const FollowingGround* ground;
+    double operator()(const typename ColumnChunks<Dim>::Column& column) const { return ground->column_height(column); }
+  };
+  // The ground of height() and gradient().
+  [[nodiscard]] GroundAnywhere<Dim, HeightOfColumn> anywhere() const {
+    return {columns_, {this}, sizes_.half(0), cell_, width_.view()};
+  }
+
   // Heights of all columns of nodes, by chunk and column, for solvers on a device.
   [[nodiscard]] const ColumnChunks<Dim>& columns() const { return columns_; }
   [[nodiscard]] std::vector<double> column_heights() const;

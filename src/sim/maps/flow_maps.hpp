@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "band/segment_step.hpp"
 #include "base/key_index.hpp"
 #include "base/raster.hpp"
 #include "mpm/body_sizes.hpp"
@@ -21,12 +22,7 @@ namespace thawslide::sim {
 
 enum class MapExtent { whole_grid, slide };
 
-// Basal segment with a band column, in the particles' frame.
-struct SegmentBelow {
-  double x, y, half_x, half_y;           // centre and half widths [m]
-  double area;                           // [m2]
-  double temperature, pressure, liquid;  // means over the band [C], [Pa]; volume of water per area [m]
-};
+using band::SegmentBelow;
 
 // Accumulates particle volume, mass and momentum in the cells below each box, weighted by the fraction of the box over
 // each cell. The sum of thickness times cell area equals the particles' volume: a box that extends beyond the grid

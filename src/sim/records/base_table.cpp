@@ -15,7 +15,7 @@ NamedNumbers base_table(const Simulation<Dim>& simulation) {
   }
   const auto add = [&](const char* name, double number) { table[name].push_back(number); };
   for (const band::BasalSegment<Dim>& segment : columns->segments()) {
-    const physics::BandMeans means = columns->current_means(segment);
+    const physics::BandMeans means = band::current_means(segment);
     const double* slide = segment.column.temperature + physics::ColumnCells::ground;
     for (int a = 0; a < 3; ++a) {
       table["position_m"].push_back(a < Dim ? segment.position[a] + simulation.model().origin[std::min(a, Dim - 1)]
@@ -28,7 +28,7 @@ NamedNumbers base_table(const Simulation<Dim>& simulation) {
     add("temperature_C", means.temperature);
     add("max_temperature_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
     add("liquid_saturation", means.saturation);
-    add("opening_m", columns->volumes_of(segment).opening);
+    add("opening_m", band::volumes_of(columns->model(), segment).opening);
     add("slip_m", segment.slip);
     add("slip_speed_m_s", segment.speed);
   }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "band/basal_segments.hpp"
+#include "band/base_sums.hpp"
 #include "sim/direction.hpp"
 
 namespace thawslide::sim {
@@ -14,7 +14,7 @@ template <int Dim>
 void add_band(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, HistoryRow& row) {
   const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
   if (const auto* columns = simulation.band_columns()) {
-    const band::BaseMeans base = columns->means();
+    const band::BaseMeans base = band::means_of(*columns);
     add("band_temperature_C", base.temperature);
     add("band_saturation", base.saturation);
     add("band_pore_pressure_Pa", base.pore_pressure);
@@ -40,7 +40,7 @@ double add_columns(const Simulation<Dim>& simulation, const Add& add) {
   if (columns == nullptr) {
     return 0.0;
   }
-  const band::ColumnSums sums = columns->sums();
+  const band::ColumnSums sums = band::sums_of(*columns);
   const band::ColumnLedger& budget = columns->budget();
   const double heat_in = budget.created_heat + budget.body_heat + budget.ground_heat;
   const double heat_out = budget.vented_heat + budget.steam_heat + budget.left_heat;

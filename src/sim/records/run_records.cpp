@@ -47,24 +47,6 @@ std::vector<double> highest_points(const Simulation<3>& simulation) {
   return highest;
 }
 
-// Basal segments in the form that maps need; empty unless the band consists of columns.
-std::vector<SegmentBelow> segments_below(const Simulation<3>& simulation) {
-  std::vector<SegmentBelow> segments;
-  const auto* columns = simulation.band_columns();
-  if (columns == nullptr) {
-    return segments;
-  }
-  segments.resize(columns->segments().size());
-  parallel_for(segments.size(), [&](std::size_t p) {
-    const auto& segment = columns->segments()[p];
-    const auto means = columns->current_means(segment);
-    const Vector<double, 3> half = 0.5 * segment.sides.cwiseAbs().rowwise().sum();
-    segments[p] = {segment.position[0], segment.position[1], half[0],       half[1], segment.area,
-                   means.temperature,   means.pore_pressure, segment.liquid};
-  });
-  return segments;
-}
-
 // Corners that bound each body at the start: release outlines, raster cells of releases, and boxes.
 std::vector<config::Polyline2> corners_at_start(const config::Case& parameters,
                                                 const std::map<std::string, config::Release>& releases) {
@@ -120,18 +102,19 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
-    const std::vector<SegmentBelow> segments = segments_below(simulation);
-    const std::vector<SegmentBelow>* below = simulation.band_columns() != nullptr ? &segments : nullptr;
+    const auto below = [&](const std::vector<SegmentBelow>& segments) {
+      return simulation.has_band_columns() ? &segments : nullptr;
+    };
     if (const device::MapSample* sample = simulation.sample_map(maps_->cells())) {
       const double mass = std::accumulate(sample->sums.begin(), sample->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
       THAWSLIDE_ASSERT(std::abs(mass - sample->moments.mass) <= round_off * sample->moments.mass,
                        "{} kg of {} kg lie over map cells that particles may reach", mass, sample->moments.mass);
-      maps_->gather(sample->keys, sample->sums, simulation.time(), below);
+      maps_->gather(sample->keys, sample->sums, simulation.time(), below(sample->segments));
       add_to_path(simulation, sample->moments);
       return;
     }
-    maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below);
+    maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below(simulation.segments_below()));
     if (!path_given_) {
       add_to_path(simulation, mass_moments(simulation));
     }

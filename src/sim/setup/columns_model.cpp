@@ -52,6 +52,7 @@ band::ColumnsModel make_columns_model(const config::Case& parameters, const Mode
                                     content.curve.saturation(columns.body_temperature));
   });
   columns.load_time = band.load_time;
+  columns.step = band.column_step;
   columns.growth = band.growth;
   columns.grain_size = band.grain_size;
   columns.inertial_number = band.inertial_number;

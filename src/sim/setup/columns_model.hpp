@@ -1,7 +1,7 @@
 // Builds the model of band columns from the case.
 #pragma once
 
-#include "band/basal_segments.hpp"
+#include "band/segment_step.hpp"
 #include "config/case.hpp"
 #include "sim/setup/model.hpp"
 

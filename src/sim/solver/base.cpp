@@ -62,41 +62,31 @@ void start_columns(const Setup<Dim>& setup, const mpm::Particles<Dim>& particles
         fmt::format("{}: the band is up to {} m thick, and the slide above it {} m on average. Use a thinner band.",
                     config::location_of(parameters, "band.thickness"), thickest, rounded_text(material.depth, 3)));
   }
-  base.columns = std::make_unique<band::BasalSegments<Dim>>(make_columns_model(parameters, setup.model, material),
-                                                            setup.model.motion.gravity);
-  base.column_time = 0.0;
+  base.columns = std::make_unique<band::BaseColumns<Dim>>(
+      base.cpu, make_columns_model(parameters, setup.model, material), setup.cell(), setup.model.motion.gravity);
 }
 
 template <int Dim>
 void update_columns(const Setup<Dim>& setup, const mpm::SparseGrid<Dim>& grid,
                     const terrain::GroundOnGrid<Dim>& ground_on_grid, double time, double dt, mpm::Nodes<Dim>& nodes,
                     Base<Dim>& base) {
-  if (!base.columns) {
-    return;
-  }
-  const terrain::Surface<Dim>& surface = *setup.model.ground;
-  const typename band::BasalSegments<Dim>::Ground ground{
-      [&](const auto& point) { return surface.height(point); },
-      [&](const auto& point) -> Vector<double, Dim> { return surface.normal_below(point, setup.cell()); },
-      [&](const auto& point) { return setup.model.motion.width.at(point[0]); }};
-  const auto node_normal = [&](std::size_t b, std::size_t k) {
-    const bool is_near = ground_on_grid.any_candidate(b) && ground_on_grid.block(b)[k].candidate;
-    return is_near ? &ground_on_grid.block(b)[k].normal : nullptr;
+  using Nodes = mpm::NodeAccess<Dim>;
+  using Ground = decltype(setup.model.ground->anywhere());
+  struct Normals {
+    const terrain::GroundOnGrid<Dim>* ground;
+    const Vector<double, Dim>& operator()(std::size_t b, std::size_t k) const { return ground->block(b)[k].normal; }
   };
-  const auto thickness = setup.band_thickness(time);
-  base.columns->update_from_nodes(grid, ground, node_normal, thickness, dt, nodes);
-  base.column_time += dt;
-  if (base.column_time + 0.5 * dt > setup.parameters.band.column_step) {
-    const auto duration = base.column_time;
-    base.columns->follow(grid, ground, node_normal, duration, nodes);
-    base.columns->step(thickness, duration);
-    base.column_time = 0.0;
+  if (base.columns) {
+    base.columns->update(
+        band::BaseInStep<Nodes, Ground, Normals, Dim>{grid.block_tables(), Nodes{grid, nodes},
+                                                      setup.model.ground->anywhere(), Normals{&ground_on_grid}},
+        setup.band_thickness(time), dt);
   }
 }
 
 template <int Dim>
 void restore_columns(const Setup<Dim>& setup, const std::vector<double>& state, Base<Dim>& base) {
-  base.columns->restore(state);
+  band::restore(state, *base.columns);
   // Segments move with the slide, whose cells extend beyond the domain.
   const double margin = 8.0 * setup.cell();
   for (const auto& segment : base.columns->segments()) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "band/basal_segments.hpp"
+#include "band/base_sums.hpp"
 #include "sim/setup/setup.hpp"
 #include "terrain/bed.hpp"
 #include "terrain/ground_on_grid.hpp"
@@ -14,9 +14,9 @@ namespace thawslide::sim {
 
 template <int Dim>
 struct Base {
-  std::unique_ptr<band::BasalSegments<Dim>> columns;  // null unless the band consists of columns
-  double column_time = 0.0;                           // since the last step of the columns [s]
-  std::optional<terrain::Bed<Dim>> bed;               // empty without an erodible bed
+  exec::Cpu cpu;
+  std::unique_ptr<band::BaseColumns<Dim>> columns;  // null unless the band consists of columns
+  std::optional<terrain::Bed<Dim>> bed;             // empty without an erodible bed
 
   // Null without an erodible bed, and while the base is fixed.
   [[nodiscard]] terrain::Bed<Dim>* bed_in_reach(const Model<Dim>& model) {

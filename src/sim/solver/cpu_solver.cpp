@@ -101,8 +101,10 @@ void CpuSolver<Dim>::press_on_ground(double dt, bool reads_mass) {
   const auto to_grid =
       base_.columns || !reads_mass ? &terrain::clearance_to_grid<Dim> : &terrain::near_ground_to_grid<Dim>;
   to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
+  nodes_.base_states = {};
   if (base_.columns) {
-    base_.columns->to_nodes(slide_.grid, nodes_);
+    base_.columns->to_nodes(slide_.grid.block_tables());
+    nodes_.base_states = base_.columns->states();
   }
   terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, clock_.time, dt, nodes_);
   if (base_.columns && reads_mass && terrain::loads_bare_ground(slide_.grid, nodes_)) {

@@ -6,7 +6,6 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "device/solver.hpp"
-#include "sim/solver/host_columns.hpp"
 #include "sim/solver/step_model.hpp"
 
 namespace thawslide::sim {
@@ -31,10 +30,10 @@ struct DeviceSolver<Dim>::Session {
   std::unique_ptr<device::Solver<Dim>> solver;  // null while the next step begins with the particles of the host
   StepSums<Dim> sums;                           // of the last step
   device::MapSample map_sample;                 // of the last step
-  double time = 0, dt = 0;                      // of the step: beginning, and duration [s]
+  double time = 0;                              // at the beginning of the step [s]
   MomentumOfNodes nodes;                        // as last fetched
   bool has_stepped = false;                     // since the solver was created
-  bool host_particles_valid = true, host_grid_valid = true, has_failed = false;
+  bool host_particles_valid = true, host_grid_valid = true, host_columns_valid = true, has_failed = false;
 };
 
 template <int Dim>
@@ -65,7 +64,7 @@ void DeviceSolver<Dim>::call(const std::function<void()>& work) const {
     work();
   } catch (const device::Failure& error) {
     Session& session = *session_;
-    session.host_particles_valid = session.host_grid_valid = session.has_failed = true;
+    session.host_particles_valid = session.host_grid_valid = session.host_columns_valid = session.has_failed = true;
     session.solver.reset();
     throw DeviceError(fmt::format("{} failed at step {}: {}", name_, clock_.step_number, error.what()));
   }
@@ -78,10 +77,13 @@ void DeviceSolver<Dim>::start() {
   }
   call([&] {
     device::HostCallbacks<Dim> callbacks = host_callbacks_of(setup_.model, setup_.cell());
-    callbacks.columns = host_columns_of(setup_, clock_, session_->dt, base_);
     callbacks.bed = base_.bed_in_reach(setup_.model);
-    session_->solver = make_(step_model_of(setup_.parameters, setup_.model, clock_), mpm::view_of(slide_.particles),
-                             slide_.particles.size(), std::move(callbacks));
+    device::StepModel<Dim> model = step_model_of(setup_.parameters, setup_.model, clock_);
+    if (base_.columns) {
+      model.band_columns = base_.columns->model();
+      model.segments = base_.columns->state();
+    }
+    session_->solver = make_(model, mpm::view_of(slide_.particles), slide_.particles.size(), std::move(callbacks));
     session_->sums.extremes = session_->solver->extremes();
   });
 }
@@ -92,13 +94,12 @@ StepSums<Dim> DeviceSolver<Dim>::step(double dt, const terrain::StrengthLaw* str
   start();
   Session& session = *session_;
   session.time = clock_.time;
-  session.dt = dt;
   stopwatch_.time("step_on_device", [&] {
     call([&] {
       if (slide_.sorting_interval > 0 && clock_.step_number % slide_.sorting_interval == 0) {
         session.solver->sort_in_memory();
       }
-      session.host_particles_valid = session.host_grid_valid = false;
+      session.host_particles_valid = session.host_grid_valid = session.host_columns_valid = false;
       session.has_stepped = true;
       session.sums = session.solver->step(clock_.time, dt, strength);
     });
@@ -188,6 +189,14 @@ void DeviceSolver<Dim>::copy_particles_back() const {
   }
 }
 
+template <int Dim>
+void DeviceSolver<Dim>::copy_columns_back() const {
+  if (base_.columns && !session_->host_columns_valid) {
+    call([&] { base_.columns->set(session_->solver->segments()); });
+  }
+  session_->host_columns_valid = true;
+}
+
 // Rebuilds the grid from the particles' positions and the layers of the last step: sums in its order then do not depend
 // on the time of synchronization.
 template <int Dim>
@@ -203,6 +212,7 @@ void DeviceSolver<Dim>::sync_to_host() const {
 template <int Dim>
 void DeviceSolver<Dim>::release() {
   sync_to_host();
+  copy_columns_back();
   fetch_nodes();
   session_->solver.reset();
   session_->has_stepped = false;

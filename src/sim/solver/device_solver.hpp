@@ -36,6 +36,7 @@ class DeviceSolver final : public Solver<Dim> {
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const override;
   [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override;
   void copy_particles_back() const override;
+  void copy_columns_back() const override;
   void sync_to_host() const override;
   void release() override;
 

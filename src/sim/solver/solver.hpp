@@ -60,6 +60,8 @@ class Solver {
   // Updates the particles in host memory; the second function also updates their grid.
   virtual void copy_particles_back() const = 0;
   virtual void sync_to_host() const = 0;
+  // Updates the basal segments in host memory.
+  virtual void copy_columns_back() const = 0;
   // The same; the next step begins with the particles in host memory.
   virtual void release() = 0;
 };

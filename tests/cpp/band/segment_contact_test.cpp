@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <random>
-#include <tuple>
 
 #include "../physics/band_column_model.hpp"
-#include "band/basal_segments.hpp"
+#include "band/base_sums.hpp"
+#include "mpm/nodes.hpp"
 
 namespace thawslide::band {
 namespace {
@@ -52,16 +51,16 @@ void expect_weights_of_nodes() {
     for (int a = 0; a + 1 < Dim; ++a) {
       position[a] = along(random);
     }
-    const BaseStencil<Dim> stencil(grid, position);
-    ASSERT_NE(stencil.block(), KeyIndex::absent);
-    const auto at = BasePatch<Dim>::nodes_at(grid, stencil.block());
+    const BaseStencil<Dim> stencil(grid.block_tables(), cell, position);
+    ASSERT_NE(stencil.block(), exec::absent);
     double weights = 0;
     Vector<double, Dim - 1> mean = Vector<double, Dim - 1>::Zero();
-    stencil.for_each_with_offset([&](std::size_t place, double weight, const Vector<double, Dim - 1>& from_segment) {
+    stencil.for_each_with_offset([&](int place, double weight, const Vector<double, Dim - 1>& from_segment) {
       weights += weight;
       mean += weight * from_segment;
-      ASSERT_NE(at[place].block, KeyIndex::absent);
-      Position<Dim> node = mpm::node_position(grid, static_cast<std::size_t>(at[place].block), at[place].node);
+      const auto at = BasePatch<Dim>::node_at(grid.block_tables(), static_cast<std::size_t>(stencil.block()), place);
+      ASSERT_NE(at.block, exec::absent);
+      Position<Dim> node = mpm::node_position(grid, static_cast<std::size_t>(at.block), at.node);
       node.template head<Dim - 1>() -= from_segment;
       EXPECT_NEAR((position - node).norm(), 0.0, 1e-12);
     });
@@ -75,19 +74,21 @@ TEST(BaseStencil, ReachesTheNodesAroundASegment3D) { expect_weights_of_nodes<3>(
 // Node of a block in the patch of another: the same relation, seen from both.
 TEST(BasePatch, IsSummedAtTheNodesThatItReads) {
   const auto grid = grid_of_blocks<3>(1.0, 3);
-  std::map<std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>, int> found;
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    BasePatch<3>::for_each_node(grid, b, [&](std::size_t block, std::size_t node, std::size_t place) {
-      ++found[{b, block, node, place}];
-    });
-    BasePatch<3>::for_each_patch(grid, b, [&](std::size_t block, std::size_t node, std::size_t place) {
-      found[{block, b, node, place}] += 10;
-    });
+  const auto tables = grid.block_tables();
+  int found = 0;
+  for (std::size_t b = 0; b < tables.blocks; ++b) {
+    for (int place = 0; place < static_cast<int>(BasePatch<3>::nodes); ++place) {
+      const auto node = BasePatch<3>::node_at(tables, b, place);
+      for (int direction = 0; node.block != exec::absent && direction < BasePatch<3>::directions; ++direction) {
+        if (BasePatch<3>::block_about(tables, static_cast<std::size_t>(node.block), direction) ==
+            static_cast<std::int32_t>(b)) {
+          EXPECT_EQ(BasePatch<3>::place_in(direction, node.node), place);
+          ++found;
+        }
+      }
+    }
   }
-  EXPECT_GT(found.size(), 9u * 49u / 2);
-  for (const auto& [place, count] : found) {
-    EXPECT_EQ(count, 11);
-  }
+  EXPECT_GT(found, 9 * 49 / 2);
 }
 
 // All friction heat of contact nodes, on the ground and below it, reaches the segments that contact creates.
@@ -101,10 +102,18 @@ TEST(BasalSegments, TakeTheFrictionHeatOfAllContactNodes) {
   model.load_time = model.mixing_slip = 1.0;
   model.density = 2000.0;
   model.largest_thickness = 40.0;
-  BasalSegments<3> segments(model, Vector<double, 3>(0.0, 0.0, -9.81));
-  const BasalSegments<3>::Ground ground{[](const auto&) { return 0.0; },
-                                        [](const auto&) { return Vector<double, 3>(0.0, 0.0, -1.0); },
-                                        [](const auto&) { return 1.0; }};
+  model.step = 1.0;
+  exec::Cpu cpu;
+  BaseColumns<3> segments(cpu, model, cell, Vector<double, 3>(0.0, 0.0, -9.81));
+  struct LevelGround {
+    struct Below {
+      double height;
+      Vector<double, 3> normal;
+    };
+    [[nodiscard]] static Below below(const Vector<double, 2>& /*point*/) { return {0.0, {0.0, 0.0, -1.0}}; }
+    [[nodiscard]] static double width(const Vector<double, 2>& /*point*/) { return 1.0; }
+  };
+  const auto down = [](std::size_t /*block*/, std::size_t /*node*/) { return Vector<double, 3>(0.0, 0.0, -1.0); };
   mpm::Nodes<3> nodes;
   const std::size_t blocks = grid.blocks().size();
   const auto is_near = [&](std::size_t b) { return mpm::Tile<3>::index(grid.blocks()[b])[2] <= 0; };
@@ -138,28 +147,27 @@ TEST(BasalSegments, TakeTheFrictionHeatOfAllContactNodes) {
       }
     }
   }
-  segments.to_nodes(grid, nodes);
-  segments.update_from_nodes(
-      grid, ground, [](std::size_t, std::size_t) { return nullptr; }, 0.2, dt, nodes);
+  const auto tables = grid.block_tables();
+  segments.to_nodes(tables);
+  segments.update(BaseInStep<mpm::NodeAccess<3>, LevelGround, decltype(down), 3>{tables, {grid, nodes}, {}, down}, 0.2,
+                  dt);
   EXPECT_GT(segments.segments().size(), 30u);
-  EXPECT_NEAR(segments.sums().waiting_heat, heat, 1e-12 * heat);
+  EXPECT_NEAR(sums_of(segments).waiting_heat, heat, 1e-12 * heat);
   // Nodes below the ground have the state of those on it, and areas are conserved.
-  segments.to_nodes(grid, nodes);
+  segments.to_nodes(tables);
   double area = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const auto tile = mpm::Tile<3>::index(grid.blocks()[b]);
-    for (std::size_t k = 0; is_near(b) && k < nodes.contact.nodes; ++k) {
-      const double here = nodes.base_state(b, k)[mpm::BaseState::area];
-      area += tile[2] == 0 ? here : 0.0;
-      if (tile[2] == 0 && k < BasePatch<3>::nodes_of_layer) {
-        auto below = tile;
-        below[2] = -1;
-        const auto block = static_cast<std::size_t>(grid.block_at(mpm::Tile<3>::key(below)));
-        EXPECT_EQ(nodes.base_state(block, k + 2 * BasePatch<3>::nodes_of_layer)[mpm::BaseState::area], here);
-      }
+    for (std::size_t k = 0; tile[2] == 0 && k < BasePatch<3>::nodes_of_layer; ++k) {
+      const double here = segments.states().at(b, k)[mpm::BaseState::area];
+      area += here;
+      auto below = tile;
+      below[2] = -1;
+      const auto block = static_cast<std::size_t>(grid.block_at(mpm::Tile<3>::key(below)));
+      EXPECT_EQ(segments.states().at(block, k + 2 * BasePatch<3>::nodes_of_layer)[mpm::BaseState::area], here);
     }
   }
-  EXPECT_NEAR(area, segments.sums().area, 1e-12 * area);
+  EXPECT_NEAR(area, sums_of(segments).area, 1e-12 * area);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ ColumnsModel make_columns_model() {
   return model;
 }
 
-const physics::Model& column_model(const ColumnsModel& model) { return std::get<0>(model.column); }
+const physics::Model& column_model(const ColumnsModel& model) { return model.column.power_law; }
 
 Segment make_segment(const ColumnsModel& model, double thickness, double depth, double area = 100.0) {
   Segment segment;

@@ -53,6 +53,7 @@ class ForwardingSolver : public device::Solver<Dim> {
   }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { steps_->copy_to(particles); }
+  [[nodiscard]] band::SegmentsState<Dim> segments() const override { return steps_->segments(); }
   void time_stages() override {}
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 

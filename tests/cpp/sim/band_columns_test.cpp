@@ -29,7 +29,7 @@ void expect_balances() {
   while (simulation.time() < 3.0 - 1e-9) {
     simulation.step(simulation.next_step(3.0));
     for (const auto& segment : simulation.band_columns()->segments()) {
-      EXPECT_LE(simulation.band_columns()->current_means(segment).pore_pressure, segment.load) << "at every step";
+      EXPECT_LE(band::current_means(segment).pore_pressure, segment.load) << "at every step";
     }
     const HistoryRow row = history_row(simulation);
     const double heat = value_of(row, "friction_heat_J");
@@ -61,7 +61,7 @@ TEST(BandColumns, UnderASlabAgreeWithThoseOfTheBlock) {
   const auto* columns = simulation.band_columns();
   const auto expect_middle = [&](const char* name, const auto& of, double start) {
     const double middle =
-        median_over_base(simulation, [&](const auto& segment) { return of(columns->current_means(segment)); });
+        median_over_base(simulation, [&](const auto& segment) { return of(band::current_means(segment)); });
     EXPECT_NEAR(middle - start, value_of(block, name) - start, 0.02 * (value_of(block, name) - start)) << name;
   };
   EXPECT_NEAR(value_of(history_row(simulation), "mean_velocity_m_s"), value_of(block, "velocity_m_s"),
@@ -114,10 +114,11 @@ TEST(BandColumns, SegmentsOfASpreadingSlideGrowAndSplit) {
   }
   run_until(simulation, 0.5);
   const std::size_t before = simulation.band_columns()->segments().size();
-  const double area = simulation.band_columns()->sums().area, water = simulation.band_columns()->sums().water;
+  const double area = band::sums_of(*simulation.band_columns()).area,
+               water = band::sums_of(*simulation.band_columns()).water;
   const double intake = value_of(history_row(simulation), "column_intake_kg");
   run_until(simulation, 3.0);
-  const double grown = simulation.band_columns()->sums().area / area;
+  const double grown = band::sums_of(*simulation.band_columns()).area / area;
   double first = 1e9, last = -1e9;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     first = std::min(first, particles.position(p, 0));
@@ -145,9 +146,9 @@ TEST(BandColumns, SegmentsOfAShorteningSlideMerge) {
       }
       run_until(simulation, 0.5);
       const std::size_t before = simulation.band_columns()->segments().size();
-      const double area = simulation.band_columns()->sums().area;
+      const double area = band::sums_of(*simulation.band_columns()).area;
       run_until(simulation, 3.0);
-      const double shortened = simulation.band_columns()->sums().area / area;
+      const double shortened = band::sums_of(*simulation.band_columns()).area / area;
       EXPECT_LT(shortened, 0.8);
       EXPECT_LT(static_cast<double>(simulation.band_columns()->segments().size()), 0.85 * static_cast<double>(before));
       const HistoryRow row = history_row(simulation);
@@ -260,16 +261,16 @@ TEST(BandColumns, AreBitwiseIdenticalOnAnyThreadsAndThroughACheckpoint) {
     set_thread_count(threads);
     Simulation<3> simulation(case_from_text(column_slab(3)));
     run_until(simulation, 1.0);
-    states.push_back(simulation.band_columns()->state());
-    segments = simulation.band_columns()->segments();
+    states.push_back(band::numbers_of(*simulation.band_columns()));
+    segments = simulation.band_columns()->state().segments;
   }
   set_thread_count(threads_before);
   EXPECT_EQ(states[0], states[1]);
   Simulation<3> other(case_from_text(column_slab(3)));
   other.restore_band_columns(states[0]);
-  EXPECT_EQ(other.band_columns()->state(), states[0]);
+  EXPECT_EQ(band::numbers_of(*other.band_columns()), states[0]);
   // Other data of segments are recomputed from their columns.
-  const auto& restored = other.band_columns()->segments();
+  const auto restored = other.band_columns()->segments();
   ASSERT_FALSE(segments.empty());
   ASSERT_EQ(restored.size(), segments.size());
   for (std::size_t p = 0; p < segments.size(); ++p) {

@@ -29,7 +29,7 @@ void stop_and_resume(std::unique_ptr<sim::Simulation<Dim>>& simulation,
     blocks["bed"] = simulation->bed()->state();
   }
   if (simulation->band_columns() != nullptr) {
-    blocks["band_columns"] = simulation->band_columns()->state();
+    blocks["band_columns"] = band::numbers_of(*simulation->band_columns());
   }
   io::write_checkpoint<Dim>(folder, simulation->particles(), simulation->particles_at_start(), simulation->scalars(),
                             blocks);
@@ -67,7 +67,7 @@ std::map<std::string, std::vector<double>> state_after(const Make& make, int ste
   auto state = state_of(*simulation);
   if (simulation->band_columns() != nullptr) {
     state.erase("load_change");  // used within a step of the band on particles only
-    state["band columns"] = simulation->band_columns()->state();
+    state["band columns"] = band::numbers_of(*simulation->band_columns());
   }
   if (simulation->bed() != nullptr) {
     state["bed"] = simulation->bed()->state();

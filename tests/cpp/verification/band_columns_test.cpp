@@ -24,14 +24,14 @@ AtEnd slide(const Sets& more) {
   for (double end = 0.05; end < 5.0 + 1e-9; end += 0.05) {
     run_until(simulation, end);
     const double ratio = median_over_base(
-        simulation, [&](const auto& segment) { return columns->current_means(segment).pore_pressure / segment.load; });
+        simulation, [&](const auto& segment) { return band::current_means(segment).pore_pressure / segment.load; });
     result.half_liquefied = result.half_liquefied == 0.0 && ratio > 0.5 ? end : result.half_liquefied;
   }
   const sim::HistoryRow row = sim::history_row(simulation);
   result.velocity = value_of(row, "mean_velocity_m_s");
   result.displacement = value_of(row, "mean_displacement_m");
   result.temperature =
-      median_over_base(simulation, [&](const auto& segment) { return columns->current_means(segment).temperature; });
+      median_over_base(simulation, [&](const auto& segment) { return band::current_means(segment).temperature; });
   return result;
 }
 

@@ -1,5 +1,4 @@
-// Model options other than those of slide.hpp, with CPU parts of the step: a stub of band columns, which records the
-// data that it receives, and an erodible bed.
+// Model options other than those of slide.hpp, among them band columns and an erodible bed.
 #pragma once
 
 #include <array>
@@ -8,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "../../cpp/physics/band_column_model.hpp"
 #include "../emulated.hpp"
 #include "slide.hpp"
 
@@ -90,6 +90,14 @@ device::StepModel<Dim> model_of(Variant variant) {
       break;
     case Variant::columns:  // as in sim::step_model_of
       model.band.heat = model.band.pressure = model.rescales_band = false;
+      model.band_columns.emplace();
+      model.band_columns->column = physics::make_model();
+      model.band_columns->body_temperature = model.band_columns->ground_temperature = -2.0;
+      model.band_columns->density = 2000.0;
+      model.band_columns->load_time = 0.1;
+      model.band_columns->step = 0.5 * time_step;  // stepped in each step
+      model.band_columns->largest_thickness = 40.0;
+      model.band_thickness = [](double /*time*/) { return 0.2; };
       break;
     case Variant::bodies:
       model.half_sizes.push_back(model.half_sizes[0]);
@@ -116,46 +124,22 @@ device::StepModel<Dim> model_of(Variant variant) {
   return model;
 }
 
-// Data received by the CPU parts of a step: in sequence, and the state of the bed.
+// State of the base other than particles: of the bed, which is on the CPU, or of the basal segments.
 struct Reported {
-  std::vector<double> numbers;
   std::function<std::vector<double>()> bed = [] { return std::vector<double>(); };
-
-  [[nodiscard]] std::vector<double> all() const {
-    std::vector<double> all = bed();
-    all.insert(all.end(), numbers.begin(), numbers.end());
-    return all;
-  }
 };
-
-// Uniform columns.
 template <int Dim>
-device::HostColumns columns_below(const std::shared_ptr<Reported>& specified) {
-  const auto states = std::make_shared<std::vector<double>>();
-  return {[states](const std::vector<std::uint64_t>& blocks) {
-            std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
-            std::array<double, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
-            state[mpm::BaseState::area] = 1.0;
-            state[mpm::BaseState::pressure_ratio] = 0.3;
-            state[mpm::BaseState::saturation] = 0.8;
-            state[mpm::BaseState::solid_fraction] = 0.7;
-            states->clear();
-            std::vector<std::uint32_t> asked;
-            for (std::size_t b = 0; b < blocks.size(); ++b) {
-              query_ground<Dim>(blocks[b], nodes.data());
-              for (const auto& node : nodes) {
-                if (node.candidate) {
-                  states->insert(states->end(), state.begin(), state.end());
-                }
-              }
-              asked.push_back(static_cast<std::uint32_t>(b));
-            }
-            return asked;
-          },
-          [states]() -> const std::vector<double>& { return *states; },
-          [specified](const std::vector<double>& nodes) {
-            specified->numbers.insert(specified->numbers.end(), nodes.begin(), nodes.end());
-          }};
+std::vector<double> state_of_base(Variant variant, const Reported& reported, const device::Solver<Dim>& steps) {
+  std::vector<double> numbers = reported.bed();
+  if (variant == Variant::columns) {
+    for (const band::BasalSegment<Dim>& segment : steps.segments().segments) {
+      numbers.insert(numbers.end(), segment.position.begin(), segment.position.end());
+      numbers.insert(numbers.end(), segment.velocity.begin(), segment.velocity.end());
+      numbers.insert(numbers.end(), {segment.area, segment.slip, segment.load, segment.depth, segment.liquid});
+      numbers.insert(numbers.end(), segment.column.temperature, segment.column.temperature + physics::ColumnCells::all);
+    }
+  }
+  return numbers;
 }
 
 // Uniform bed over the part of the plane that the slide reaches.
@@ -176,9 +160,6 @@ device::HostCallbacks<Dim> processor_of(Variant variant, const std::shared_ptr<R
       query_ground<Dim>(block, nodes);
       return mpm::Tile<Dim>::index(block)[0] < 5;
     };
-  }
-  if (variant == Variant::columns) {
-    ask.columns = columns_below<Dim>(specified);
   }
   if (variant == Variant::bed) {
     const auto bed = bed_below<Dim>();
