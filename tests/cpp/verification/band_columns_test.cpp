@@ -19,7 +19,6 @@ AtEnd slide(const Sets& more) {
   const Sets sets{"body.slab.max=[400,80]; grid.max=[800,160]; body.slab.temperature=-0.1",
                   "body.slab.velocity=[10,0]; basal.friction_angle=35; mechanics.slope_shear=true"};
   Simulation<2> simulation(base_case("columns", sets + more));
-  const auto* columns = simulation.band_columns();
   AtEnd result{};
   for (double end = 0.05; end < 5.0 + 1e-9; end += 0.05) {
     run_until(simulation, end);
