@@ -1,5 +1,4 @@
-// Time step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure. The stages match those
-// of sim/solver/cpu_solver.cpp on the CPU.
+// Stages of a time step (mpm/step_sequence.hpp) on a device.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +20,7 @@
 #include "mpm/front_stage.hpp"
 #include "mpm/monitor_sums.hpp"
 #include "mpm/motion_stages.hpp"
+#include "mpm/step_sequence.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "terrain/band_marks_kernel.hpp"
 
@@ -110,32 +110,7 @@ class Step {
   // Advances the solution by dt [s], from time [s]. strength: replaces the basal laws of the case; or null.
   Sums step(double time, double dt, const terrain::StrengthLaw* strength) {
     passes_.backend.for_each(1, Fill<Sums>{sums_.data(), {}});
-    set_layers(time);
-    find_cells();
-    passes_.backend.end_stage("find_cells");
-    if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
-      band_.rescale(time);  // changes temperatures
-    }
-    if (passes_.ground.exists() || passes_.model.has_band()) {
-      band_.average();
-      passes_.backend.end_stage("average_band_on_grid");
-    }
-    if (passes_.model.moves) {
-      step_mechanics(time, dt, strength);
-    }
-    if (passes_.model.rescales_band && !passes_.model.band.rescaling_mixes) {
-      band_.rescale(time);
-    }
-    if (passes_.model.has_band()) {
-      band_.conduct_heat(dt);
-      passes_.backend.end_stage("conduct_heat");
-    }
-    if (passes_.model.band.pressure) {
-      band_.drain_pore_pressure(dt);
-      passes_.backend.end_stage("drain_pore_pressure");
-    }
-    update_positions();
-    passes_.backend.end_stage("update_positions");
+    mpm::perform_step(*this, time, dt, strength);
     return sums_.get(0);
   }
 
@@ -167,6 +142,44 @@ class Step {
 
  private:
   using ContactOfBodies = mpm::BodyContactArgs<device::ContactNodes<Dim>, Dim>;
+  template <class Stages, class StrengthLaw>
+  friend void mpm::perform_step(Stages&, double, double, const StrengthLaw*);
+
+  // The stages of mpm::perform_step.
+  template <class Work>
+  void measure(const char* stage, const Work& work) {
+    work();
+    passes_.backend.end_stage(stage);
+  }
+  [[nodiscard]] bool moves() const { return passes_.model.moves; }
+  [[nodiscard]] bool rescaling_mixes() const { return passes_.model.band.rescaling_mixes; }
+  void find_cells(double time) {
+    set_layers(time);
+    find_cells();
+  }
+  void rescale_band(double time) {
+    if (passes_.model.rescales_band) {
+      band_.rescale(time);
+    }
+  }
+  void average_band_on_grid(bool /*law_is_given*/) {
+    if (passes_.ground.exists() || passes_.model.has_band()) {
+      band_.average();
+    }
+  }
+  void momentum_to_grid() {
+    mpm::stages::momentum_to_grid<Dim>(passes_, passes_.model.motion, passes_.width(), force_of_walls_.data());
+  }
+  void conduct_heat(double dt) {
+    if (passes_.model.has_band()) {
+      band_.conduct_heat(dt);
+    }
+  }
+  void drain_pore_pressure(double dt) {
+    if (passes_.model.band.pressure) {
+      band_.drain_pore_pressure(dt);
+    }
+  }
 
   void set_layers(double time) {
     if (passes_.model.layers_of_bodies) {
@@ -174,7 +187,6 @@ class Step {
     }
   }
 
-  // The stages below match those of sim/solver/cpu_solver.cpp.
   void find_cells() {
     passes_.cells.update(passes_.particles.view(), passes_.particles.by_id(), passes_.particles.size());
     if (!passes_.cells.blocks_changed()) {
@@ -211,17 +223,6 @@ class Step {
       bases_.resize(passes_.ground.candidate_count());
     }
   }
-  void step_mechanics(double time, double dt, const terrain::StrengthLaw* strength) {
-    mpm::stages::momentum_to_grid<Dim>(passes_, passes_.model.motion, passes_.width(), force_of_walls_.data());
-    passes_.backend.end_stage("momentum_to_grid");
-    resolve_contact(time, dt, strength);
-    passes_.backend.end_stage("resolve_contact");
-    move(time, dt);
-    passes_.backend.end_stage("move_particles");
-    update_stress(dt);
-    passes_.backend.end_stage("update_stress_and_porosity");
-  }
-
   void resolve_contact(double time, double dt, const terrain::StrengthLaw* strength) {
     const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
     const double* strengths = nullptr;
@@ -295,7 +296,7 @@ class Step {
     }
   }
 
-  void move(double time, double dt) {
+  void move_particles(double time, double dt) {
     const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
     mpm::stages::move_particles<Dim>(passes_, motion, dt, &sums_.data()->particle_kinetic);
     if (motion.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
@@ -322,7 +323,7 @@ class Step {
             passes_.contact_nodes()};
   }
 
-  void update_stress(double dt) {
+  void update_stress_and_porosity(double dt) {
     const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
     mpm::with_width<Dim>(passes_.width(), [&]<class Width>(const Width& width) {
       for (std::int32_t number = 0; const mpm::MaterialModel& material : motion.materials) {

@@ -7,6 +7,7 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "mpm/front_stage.hpp"
+#include "mpm/step_sequence.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/filter_times.hpp"
@@ -17,61 +18,19 @@
 
 namespace thawslide::sim {
 
-// Discrete step, Section 2.3 of the paper; all stages use the shape functions at the initial positions of the step.
-//   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
-//   P_i, S_i, n_i: averages with the linear shape functions; with band columns, only if a node presses on ground
-//   without a column                                                                         Eq. 21
-//   f_i of bodies that do not share nodes: including the forces between them                 mpm/body_contact.hpp
-//   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
-//   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
-//   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
-//   heat content from conduction, advection and the friction heat of the contact nodes         Eqs. 9, 18-20
-//   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
 template <int Dim>
 StepSums<Dim> CpuSolver<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
-  const Model<Dim>& model = setup_.model;
-  StepSums<Dim> sums;
-  stopwatch_.time("find_cells", [&] { find_cells(); });
-  stopwatch_.time("average_band_on_grid", [&] {
-    if (model.band.rescaling_mixes) {
-      rescale_band();  // changes temperatures
-    }
-    average_band_on_grid(model.contact.reads_mass || strength != nullptr);
-  });
-  if (setup_.parameters.mechanics.enabled) {
-    double force_of_walls = 0;
-    stopwatch_.time("momentum_to_grid", [&] {
-      force_of_walls = momentum_to_grid();
-      blocks_of_nodes_ = slide_.grid.blocks();
-    });
-    stopwatch_.time("resolve_contact", [&] {
-      sums.contact = resolve_contact(dt, strength);
-      sums.contact.force[0] -= force_of_walls;  // the walls are part of the ground
-    });
-    stopwatch_.time("move_particles", [&] { move_particles(dt, sums); });
-    stopwatch_.time("update_stress_and_porosity", [&] {
-      sums.deformed = mpm::update_stress_and_porosity(slide_.grid, slide_.particles, model.motion, dt, nodes_);
-    });
-  }
-  stopwatch_.time("conduct_heat", [&] {
-    if (!model.band.rescaling_mixes) {
-      rescale_band();
-    }
-    if (!base_.columns) {  // otherwise, the body's temperature is constant
-      sums.heat = band_stages().conduct_heat(dt, clock_.step_number == 0);
-    }
-  });
-  stopwatch_.time("drain_pore_pressure", [&] { sums.water = drain_pore_pressure(dt); });
-  stopwatch_.time("update_positions", [&] { sums.invalid = update_positions(); });
-  sums.band_rescale = std::exchange(rescaling_heat_, 0.0);
-  return sums;
+  sums_ = {};
+  mpm::perform_step(*this, clock_.time, dt, strength);
+  sums_.band_rescale = std::exchange(rescaling_heat_, 0.0);
+  return sums_;
 }
 
 template <int Dim>
-void CpuSolver<Dim>::find_cells() {
+void CpuSolver<Dim>::find_cells(double time) {
   blocks_of_nodes_.clear();
   slide_.locate(setup_.model);
-  slide_.set_layers(setup_.model, clock_.time);
+  slide_.set_layers(setup_.model, time);
   slide_.update_grid(setup_.model, slide_.sorting_interval);
   if (slide_.grid.blocks_changed() && !setup_.parameters.mechanics.enabled) {
     terrain::start_contact(slide_.grid, ground(), nodes_);  // there is no contact, and no step resolves it
@@ -79,21 +38,23 @@ void CpuSolver<Dim>::find_cells() {
 }
 
 template <int Dim>
-void CpuSolver<Dim>::average_band_on_grid(bool reads_mass) {
+void CpuSolver<Dim>::average_band_on_grid(bool law_is_given) {
   const Model<Dim>& model = setup_.model;
+  const bool reads_mass = model.contact.reads_mass || law_is_given;
   if (!base_.columns && ((model.ground && reads_mass) || model.band.heat || model.band.pressure)) {
     band_stages().average_on_grid();
   }
 }
 
 template <int Dim>
-double CpuSolver<Dim>::momentum_to_grid() {
-  return mpm::momentum_to_grid(slide_.grid, slide_.particles, setup_.model.motion, nodes_);
+void CpuSolver<Dim>::momentum_to_grid() {
+  force_of_walls_ = mpm::momentum_to_grid(slide_.grid, slide_.particles, setup_.model.motion, nodes_);
+  blocks_of_nodes_ = slide_.grid.blocks();
 }
 
 // Only nodes out of reach of band columns need the state of particles, and only if a law reads it.
 template <int Dim>
-void CpuSolver<Dim>::press_on_ground(double dt, bool reads_mass) {
+void CpuSolver<Dim>::press_on_ground(double time, double dt, bool reads_mass) {
   const Model<Dim>& model = setup_.model;
   if (!model.ground) {
     return;
@@ -106,7 +67,7 @@ void CpuSolver<Dim>::press_on_ground(double dt, bool reads_mass) {
     base_.columns->to_nodes(slide_.grid.block_tables());
     nodes_.base_states = base_.columns->states();
   }
-  terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, clock_.time, dt, nodes_);
+  terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, time, dt, nodes_);
   if (base_.columns && reads_mass && terrain::loads_bare_ground(slide_.grid, nodes_)) {
     band_stages().average_on_grid();
     terrain::near_ground_to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
@@ -114,7 +75,7 @@ void CpuSolver<Dim>::press_on_ground(double dt, bool reads_mass) {
 }
 
 template <int Dim>
-terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terrain::StrengthLaw* strength) {
+void CpuSolver<Dim>::resolve_contact(double time, double dt, const terrain::StrengthLaw* strength) {
   const Model<Dim>& model = setup_.model;
   if (model.between_bodies.any()) {
     body_contact_.update_pairs(slide_.grid.blocks(), model.between_bodies);
@@ -131,7 +92,7 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terra
                                             {slide_.grid, nodes_}});
     body_contact_.add_forces(*between_bodies_);
   }
-  press_on_ground(dt, model.contact.reads_mass || strength != nullptr);
+  press_on_ground(time, dt, model.contact.reads_mass || strength != nullptr);
   const bool has_bed = base_.bed_in_reach(model) != nullptr;
   if (has_bed) {
     if (!bed_) {
@@ -139,40 +100,44 @@ terrain::ContactWork<Dim> CpuSolver<Dim>::resolve_contact(double dt, const terra
     }
     bed_->update(slide_.grid, slide_.ground, model.motion.sizes, slide_.particles, nodes_);
   }
-  const terrain::ContactWork<Dim> work =
-      terrain::resolve_contact(slide_.grid, ground(), model.constraints, model.contact, clock_.time, dt, nodes_,
-                               has_bed ? &*bed_ : nullptr, strength);
+  sums_.contact = terrain::resolve_contact(slide_.grid, ground(), model.constraints, model.contact, time, dt, nodes_,
+                                           has_bed ? &*bed_ : nullptr, strength);
+  sums_.contact.force[0] -= force_of_walls_;  // the walls are part of the ground
   if (has_bed) {
     bed_->collect(dt);
   }
   if (model.ground) {
     terrain::mark_band_and_slip(slide_.grid, slide_.ground, dt, nodes_, slide_.particles);
   }
-  update_columns(setup_, slide_.grid, slide_.ground, clock_.time, dt, nodes_, base_);
-  return work;
+  update_columns(setup_, slide_.grid, slide_.ground, time, dt, nodes_, base_);
 }
 
 template <int Dim>
-void CpuSolver<Dim>::move_particles(double dt, StepSums<Dim>& sums) {
+void CpuSolver<Dim>::move_particles(double time, double dt) {
   const Model<Dim>& model = setup_.model;
-  sums.particle_kinetic = mpm::move_particles(slide_.grid, slide_.particles, model.motion, dt, nodes_);
-  if (model.motion.filter_order > 0 && filters_in_step(setup_.parameters, clock_.time, dt)) {
-    sums.filtered = mpm::filter_velocities(slide_.grid, slide_.particles, model.motion, nodes_);
+  sums_.particle_kinetic = mpm::move_particles(slide_.grid, slide_.particles, model.motion, dt, nodes_);
+  if (model.motion.filter_order > 0 && filters_in_step(setup_.parameters, time, dt)) {
+    sums_.filtered = mpm::filter_velocities(slide_.grid, slide_.particles, model.motion, nodes_);
   }
-  sums.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
-                                                    model.motion.gravity, clock_.time, dt, nodes_);
+  sums_.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
+                                                     model.motion.gravity, time, dt, nodes_);
   if (body_contact_.work_count() > 0) {
     std::vector<mpm::BodyContactWork> works(body_contact_.work_count());
     body_contact_.constrain_mapped_back(*between_bodies_, works.data());
-    sums.between_bodies = parallel_sum<mpm::BodyContactWork>(
+    sums_.between_bodies = parallel_sum<mpm::BodyContactWork>(
         works.size(), [&](std::size_t k, mpm::BodyContactWork& sum) { sum += works[k]; });
   }
 }
 
 template <int Dim>
-void CpuSolver<Dim>::rescale_band() {
+void CpuSolver<Dim>::update_stress_and_porosity(double dt) {
+  sums_.deformed = mpm::update_stress_and_porosity(slide_.grid, slide_.particles, setup_.model.motion, dt, nodes_);
+}
+
+template <int Dim>
+void CpuSolver<Dim>::rescale_band(double time) {
   const Model<Dim>& model = setup_.model;
-  const double thickness = setup_.band_thickness(clock_.time);
+  const double thickness = setup_.band_thickness(time);
   const bool depends_on_position = model.band.region != band::BandRegion::all || model.ground;
   if (model.contact.band_columns || !(depends_on_position || thickness != band_thickness_)) {
     return;
@@ -182,39 +147,44 @@ void CpuSolver<Dim>::rescale_band() {
 }
 
 template <int Dim>
-band::WaterLoss CpuSolver<Dim>::drain_pore_pressure(double dt) {
-  if (!setup_.model.band.pressure || base_.columns) {
-    return {};
+void CpuSolver<Dim>::conduct_heat(double dt) {
+  if (!base_.columns) {  // otherwise, the body's temperature is constant
+    sums_.heat = band_stages().conduct_heat(dt, clock_.step_number == 0);
   }
-  update_flow_depth();
-  update_normal_load();
-  return band_stages().drain_pore_pressure(flow_depth_, dt);
 }
 
 template <int Dim>
-mpm::InvalidParticle CpuSolver<Dim>::update_positions() {
+void CpuSolver<Dim>::drain_pore_pressure(double dt) {
+  if (setup_.model.band.pressure && !base_.columns) {
+    update_flow_depth();
+    update_normal_load();
+    sums_.water = band_stages().drain_pore_pressure(flow_depth_, dt);
+  }
+}
+
+template <int Dim>
+void CpuSolver<Dim>::update_positions() {
   mpm::Particles<Dim>& particles = slide_.particles;
   if (setup_.parameters.mechanics.enabled) {
     // Particles that will be removed may leave the domain before the end of the step.
     const double margin = setup_.parameters.grid.leaving == config::Policy::remove ? slide_.grid.cell() : 0.0;
     const Vector<double, Dim> beyond = Vector<double, Dim>::Constant(margin);
     slide_.are_located = false;
-    return mpm::update_positions(particles, Vector<double, Dim>(-beyond),
-                                 Vector<double, Dim>(setup_.model.constraints.extent + beyond));
+    sums_.invalid = mpm::update_positions(particles, Vector<double, Dim>(-beyond),
+                                          Vector<double, Dim>(setup_.model.constraints.extent + beyond));
+    return;
   }
-  mpm::InvalidParticle invalid;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     if (!std::isfinite(particles.temperature(p)) || !std::isfinite(particles.pore_pressure(p))) {
-      invalid.record(particles.id(p), mpm::Fault::state_not_finite);
+      sums_.invalid.record(particles.id(p), mpm::Fault::state_not_finite);
     }
   }
-  return invalid;
 }
 
 template <int Dim>
 void CpuSolver<Dim>::begin() {
   const Model<Dim>& model = setup_.model;
-  find_cells();
+  find_cells(clock_.time);
   if (model.ground) {
     terrain::set_contact_offset(model.motion.sizes, slide_.grid.cell(), slide_.particles);
   }

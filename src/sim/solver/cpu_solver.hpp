@@ -10,6 +10,7 @@
 #include "band/stages_on_cpu.hpp"
 #include "base/stopwatch.hpp"
 #include "mpm/body_contact.hpp"
+#include "mpm/step_sequence.hpp"
 #include "sim/solver/base.hpp"
 #include "sim/solver/clock.hpp"
 #include "sim/solver/slide.hpp"
@@ -31,7 +32,7 @@ class CpuSolver final : public Solver<Dim> {
   // The same for particles that join at memory index `first` and above.
   void join(std::size_t first);
   // Updates the grid, its layers and the ground at its nodes to the particles.
-  void find_cells();
+  void find_cells() { find_cells(clock_.time); }
 
   // Nodes of the last step.
   [[nodiscard]] const mpm::Nodes<Dim>& nodes() const { return nodes_; }
@@ -51,19 +52,31 @@ class CpuSolver final : public Solver<Dim> {
   void release() override {}
 
  private:
-  // The stages of a step, in order. Each returns its sums.
-  void average_band_on_grid(bool reads_mass);
-  [[nodiscard]] double momentum_to_grid();
-  void press_on_ground(double dt, bool reads_mass);
-  [[nodiscard]] terrain::ContactWork<Dim> resolve_contact(double dt, const terrain::StrengthLaw* strength);
-  void move_particles(double dt, StepSums<Dim>& sums);
-  [[nodiscard]] band::WaterLoss drain_pore_pressure(double dt);
-  [[nodiscard]] mpm::InvalidParticle update_positions();
+  template <class Stages, class StrengthLaw>
+  friend void mpm::perform_step(Stages&, double, double, const StrengthLaw*);
+
+  // The stages of mpm::perform_step, and their parts.
+  template <class Work>
+  void measure(const char* stage, const Work& work) {
+    stopwatch_.time(stage, work);
+  }
+  [[nodiscard]] bool moves() const { return setup_.parameters.mechanics.enabled; }
+  [[nodiscard]] bool rescaling_mixes() const { return setup_.model.band.rescaling_mixes; }
+  void find_cells(double time);
+  void rescale_band(double time);
+  void average_band_on_grid(bool law_is_given);
+  void momentum_to_grid();
+  void resolve_contact(double time, double dt, const terrain::StrengthLaw* strength);
+  void press_on_ground(double time, double dt, bool reads_mass);
+  void move_particles(double time, double dt);
+  void update_stress_and_porosity(double dt);
+  void conduct_heat(double dt);
+  void drain_pore_pressure(double dt);
+  void update_positions();
 
   using ContactOfBodies = mpm::BodyContactArgs<mpm::NodeAccess<Dim>, Dim>;
 
   void mark_band();
-  void rescale_band();
   [[nodiscard]] band::StagesOnCpu<Dim> band_stages() {
     return {slide_.grid, setup_.model.band, slide_.particles, nodes_};
   }
@@ -83,6 +96,8 @@ class CpuSolver final : public Solver<Dim> {
   Base<Dim>& base_;
   const Clock& clock_;
   Stopwatch& stopwatch_;
+  StepSums<Dim> sums_;         // of the step
+  double force_of_walls_ = 0;  // of a section, along x [N]
   mpm::Nodes<Dim> nodes_;
   band::FlowDepth<Dim> flow_depth_;
   exec::Cpu cpu_;
