@@ -60,6 +60,8 @@ struct BodySums {
 // Contribution of one particle.
 template <int Dim>
 struct SumsOfParticle {
+  using Sums = BodySums<Dim>;
+
   Vector<double, Dim> gravity, origin;  // [m/s2]; of positions [m]
   physics::Phases phases;
   bool latent;            // melting consumes latent heat

@@ -67,6 +67,8 @@ struct FreeGaps {
 // Extremes of one particle.
 template <int Dim>
 struct ExtremesOfParticle {
+  using Sums = StepExtremes;
+
   BandPhysics model;
   HydraulicConductivity hydraulic;
   FreeGaps free_gaps;

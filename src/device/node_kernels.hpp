@@ -8,6 +8,7 @@
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/base_states.hpp"
+#include "mpm/prescribed_motion.hpp"
 #include "mpm/section_width.hpp"
 #include "terrain/contact_stage.hpp"
 

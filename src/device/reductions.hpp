@@ -1,33 +1,35 @@
-// Reductions over all particles: kernels (mpm/kernel.hpp).
+// Reductions over all particles, one per line. sim::Solver computes them on the CPU and on a device. A reduction has
+//   Sums                      its result, a type that no other reduction has, with += and zero by default
+//   operator()(particles, p)  the contribution of particle p, for host and device
 #pragma once
 
+#include <variant>
+
 #include "band/body_sums.hpp"
-#include "mpm/kernel.hpp"
-#include "mpm/map_sums.hpp"
+#include "mpm/mass_moments.hpp"
+#include "mpm/monitor_sums.hpp"
 
 namespace thawslide::device {
 
-// Sum of a function of one particle, of(particles, particle).
-template <class Sum, class Of>
-struct SumOf {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = Sum;
+template <int Dim>
+using AnyReduction = std::variant<  //
+    mpm::MonitorKernel<Dim>,        //
+    mpm::MomentsOfParticle,         //
+    band::SumsOfParticle<Dim>>;
 
-  Of of;
+namespace detail {
 
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Totals& sums) const {
-    sums = of(particles, at.particle[0]);
-  }
+template <class Reductions>
+struct SumsOfAll;
+template <class... Reductions>
+struct SumsOfAll<std::variant<Reductions...>> {
+  using Type = std::variant<typename Reductions::Sums...>;
 };
 
-struct MomentsOf {
-  template <class Particles>
-  THAWSLIDE_HD mpm::MassMoments operator()(const Particles& particles, std::uint32_t p) const {
-    return mpm::mass_moments_of(particles, p);
-  }
-};
+}  // namespace detail
+
+// Result of a reduction.
+template <int Dim>
+using AnySums = typename detail::SumsOfAll<AnyReduction<Dim>>::Type;
 
 }  // namespace thawslide::device

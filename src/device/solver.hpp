@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "band/body_sums.hpp"
+#include "device/reductions.hpp"
 #include "device/solver_factory.hpp"
 #include "device/step_model.hpp"
 #include "mpm/front.hpp"
-#include "mpm/monitor_sums.hpp"
 #include "mpm/particle_view.hpp"
 #include "terrain/strength_law.hpp"
 
@@ -35,12 +34,10 @@ class Solver {
   virtual StepSums<Dim> step(double time, double dt, const terrain::StrengthLaw* strength) = 0;
   // Extremes that determine the first step; those of later ones are among the sums of the step before.
   virtual band::StepExtremes extremes() = 0;
-  // Monitor sums over the particles after a step.
-  virtual mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) = 0;
+  // Reduction over the particles after a step.
+  virtual AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) = 0;
   // Sums for maps (3D only).
   virtual void sample_map(const mpm::MapCells& cells, MapSample& sample) = 0;
-  // Sums for a history row.
-  virtual band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) = 0;
   // Particle at the front. mass: total mass of the particles [kg].
   virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) = 0;
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.

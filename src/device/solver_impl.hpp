@@ -22,11 +22,8 @@ class SolverImpl final : public Solver<Dim> {
     return step_.step(time, dt, strength);
   }
   band::StepExtremes extremes() override { return step_.extremes(); }
-  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
+  AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) override { return step_.reduce(reduction); }
   void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
-  band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
-    return step_.sum_over_body(of_particle);
-  }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override { return step_.front(path, mass); }
   std::vector<Vector<double, Dim>> escaped_positions() override { return step_.escaped_positions(); }
   void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) override {

@@ -64,7 +64,7 @@ template <class Backend, class Shape, int Dim>
 class Step {
   using Passes = StepPasses<Backend, Shape, Dim>;
   using Sums = StepSums<Dim>;
-  using FindExtremes = SumOf<band::StepExtremes, band::ExtremesOfParticle<Dim>>;
+  using FindExtremes = SumOf<band::ExtremesOfParticle<Dim>>;
 
  public:
   // Copies `count` particles from CPU memory.
@@ -116,14 +116,11 @@ class Step {
 
   band::StepExtremes extremes() {
     find_cells();
-    return passes_.sum_over_particles(extremes_kernel().of, extremes_);
+    return passes_.sum_over_particles(extremes_kernel().of);
   }
   // Reductions over the particles after a step.
-  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) {
-    return passes_.sum_over_particles(kernel, monitored_);
-  }
-  band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) {
-    return passes_.sum_over_particles(of_particle, body_);
+  AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) {
+    return std::visit([this](const auto& of) -> AnySums<Dim> { return passes_.sum_over_particles(of); }, reduction);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) {
     return front_.find(path, mass, passes_.particles.view(), passes_.cells.tables().order, passes_.particles.size());
@@ -134,7 +131,6 @@ class Step {
   }
   void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
     if constexpr (Dim == 3) {
-      sample.moments = passes_.sum_over_particles(MomentsOf{}, moments_);
       sample.segments = band_columns_ ? band_columns_->summaries() : std::vector<band::SegmentBelow>();
       maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), sample);
     }
@@ -368,7 +364,7 @@ class Step {
   }
   [[nodiscard]] CountEscaped<Dim> escape_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,
-            passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
+            passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.extent};
   }
   template <class... Kernels>
   void update_positions(const Kernels&... kernels) {
@@ -394,10 +390,6 @@ class Step {
   exec::Array<terrain::BasalNode, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   mpm::Front<Backend, Dim> front_{passes_.backend};
-  exec::Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
-  exec::Array<band::StepExtremes, Backend> extremes_{passes_.backend, 1};
-  exec::Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};
-  exec::Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };
 
 }  // namespace thawslide::device

@@ -13,8 +13,8 @@
 #include "mpm/between_bodies.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/mapping.hpp"
+#include "mpm/node_conditions.hpp"
 #include "mpm/parameters.hpp"
-#include "mpm/prescribed_motion.hpp"
 #include "mpm/records.hpp"
 #include "mpm/section_width.hpp"
 #include "mpm/tile.hpp"
@@ -35,8 +35,8 @@ struct StepModel {
   mpm::MotionParameters<Dim> motion;
   bool moves = true;  // off: heat and pore pressure only
   std::function<bool(double time, double dt)> filters_in_step;
-  mpm::DomainFaces<Dim> faces;
-  std::vector<mpm::RigidFrame<Dim>> frames;
+  Vector<double, Dim> extent;  // upper corner of the domain [m]; the lower corner is the origin
+  std::vector<mpm::NodeCondition<Dim>> conditions;
   mpm::SectionWidth width;
   mpm::BetweenBodies between_bodies;
   std::function<std::vector<std::uint8_t>(double time)> layers_of_bodies;  // by body; empty: all share nodes
@@ -74,11 +74,10 @@ struct HostCallbacks {
   terrain::Bed<Dim>* bed = nullptr;  // erodible, on the CPU; null if there is none
 };
 
-// Sums for maps and for the path of the centre of mass after a step (3D only).
+// Sums for maps after a step (3D only), and basal segments.
 struct MapSample {
   std::vector<std::uint64_t> keys;  // of cells below the active tiles, ascending (mpm::map_cell_key)
   std::vector<mpm::MapSums> sums;   // by key
-  mpm::MassMoments moments;
   std::vector<band::SegmentBelow> segments;  // empty without band columns
 };
 

@@ -9,8 +9,8 @@
 #include "device/node_kernels.hpp"
 #include "device/node_memory.hpp"
 #include "device/particles.hpp"
-#include "device/reductions.hpp"
 #include "device/tile_tables.hpp"
+#include "mpm/kernel.hpp"
 #include "terrain/near_ground_kernel.hpp"
 
 namespace thawslide::device {
@@ -77,6 +77,22 @@ struct SolveAtNodes {
   }
 };
 
+// Kernel that adds up Of::Sums: a function of one particle, of(particles, particle).
+template <class Of>
+struct SumOf {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Totals = typename Of::Sums;
+
+  Of of;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               Totals& sums) const {
+    sums = of(particles, at.particle[0]);
+  }
+};
+
 // Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim>
 class StepPasses {
@@ -92,7 +108,7 @@ class StepPasses {
         cells(used, known.cell, known.mapping),
         ground(used, query_ground),
         sizes_(used, known.half_sizes, 1.0) {
-    frames_.set(known.frames);
+    conditions_.set(known.conditions);
     places_.set(known.width.places());
     relative_widths_.set(known.width.relative());
   }
@@ -166,11 +182,11 @@ class StepPasses {
     }
   }
   // of: as in SumOf.
-  template <class Of, class Sum>
-  Sum sum_over_particles(const Of& of, exec::Array<Sum, Backend>& sum) {
-    using Kernel = SumOf<Sum, Of>;
-    keep(&run(linear(), Kernel{of})->template of<Kernel>(), sum.data());
-    return sum.get(0);
+  template <class Of>
+  typename Of::Sums sum_over_particles(const Of& of) {
+    typename Of::Sums sums;
+    backend.copy_out(&sums, &run(linear(), SumOf<Of>{of})->template of<SumOf<Of>>(), 1);
+    return sums;
   }
   // Copies a sum from memory that the next pass reuses.
   template <class Sum>
@@ -217,7 +233,7 @@ class StepPasses {
     return {cells.tables(),
             contact_nodes(),
             ground.exists() ? ground.known() : nullptr,
-            {model.faces, frames_.data(), frames_.size()},
+            {conditions_.data(), conditions_.size()},
             model.motion.gravity,
             model.cell,
             time,
@@ -248,7 +264,7 @@ class StepPasses {
   }
 
   BodySizes<Backend> sizes_;
-  exec::Array<mpm::RigidFrame<Dim>, Backend> frames_{backend};
+  exec::Array<mpm::NodeCondition<Dim>, Backend> conditions_{backend};
   exec::Array<double, Backend> places_{backend}, relative_widths_{backend};
 };
 

@@ -11,11 +11,12 @@
 namespace thawslide::mpm {
 
 template <int Dim>
-struct Constraints : DomainFaces<Dim> {
-  std::vector<RigidFrame<Dim>> frames;
+struct Constraints {
+  Vector<double, Dim> extent;  // upper corner of the domain [m]; the lower corner is the origin
+  std::vector<NodeCondition<Dim>> conditions;
   std::uint64_t first_held_layer = std::numeric_limits<std::uint64_t>::max();  // of the grid, and those after it
 
-  [[nodiscard]] PrescribedMotion<Dim> motion() const { return {*this, frames.data(), frames.size()}; }
+  [[nodiscard]] PrescribedMotion<Dim> motion() const { return {conditions.data(), conditions.size()}; }
 };
 
 // Constraints on the nodes of one block; most blocks have none.

@@ -141,21 +141,4 @@ struct MapSums {
   }
 };
 
-// Mass of the sliding mass and its first moments, around the origin of particle positions.
-struct MassMoments {
-  double mass = 0.0, mass_x = 0.0, mass_y = 0.0;  // [kg, kg m]
-
-  THAWSLIDE_HD MassMoments& operator+=(const MassMoments& part) {
-    mass += part.mass;
-    mass_x += part.mass_x;
-    mass_y += part.mass_y;
-    return *this;
-  }
-};
-template <class Particles>
-THAWSLIDE_HD MassMoments mass_moments_of(const Particles& particles, std::size_t p) {
-  return {particles.mass(p), particles.mass(p) * particles.position(p, 0),
-          particles.mass(p) * particles.position(p, 1)};
-}
-
 }  // namespace thawslide::mpm

@@ -25,6 +25,8 @@ struct MonitorSums {
 
 template <int Dim>
 struct MonitorKernel {
+  using Sums = MonitorSums;
+
   Vector<double, Dim> gravity, origin;     // [m/s2]; of positions [m]
   double fast_distance;                    // displacement in a step above which a particle counts as fast [m]
   double smallest_volume, largest_volume;  // relative to the volume at t = 0

@@ -25,7 +25,9 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   solver().release();
   const Model<Dim> model = setup_.model;
   setup_.model.band.heat = setup_.model.band.pressure = false;
-  setup_.model.constraints.frames.clear();
+  std::erase_if(setup_.model.constraints.conditions, [](const auto& condition) {
+    return std::visit([](const auto& of_kind) { return of_kind.moves; }, condition);
+  });
   setup_.model.release_times.clear();  // all bodies settle together
   setup_.model.splits_stretched = false;
   setup_.model.contact.base_is_fixed = true;

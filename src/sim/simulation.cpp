@@ -90,7 +90,7 @@ void Simulation<Dim>::monitor() {
   if (!setup_.parameters.mechanics.enabled || (clock_.step_number % watch_interval != 0 && invalid_.id < 0)) {
     return;
   }
-  const mpm::MonitorSums seen = solver().monitor(monitor_kernel(setup_, clock_.last_step));
+  const mpm::MonitorSums seen = solver().sum_over_particles(monitor_kernel(setup_, clock_.last_step));
   if (const auto growth = check_energy(setup_, budget_, seen, monitor_)) {
     solver().sync_to_host();
     fail_run(clock_, failure_text().of_energy(growth->energy, growth->fraction));
@@ -247,7 +247,7 @@ template <int Dim>
 void Simulation<Dim>::start_monitor() {
   removed_ = {};
   monitor_ = setup_.parameters.mechanics.enabled
-                 ? monitor_at_start(setup_, *slide_, budget_, solver().monitor(monitor_kernel(setup_, 0.0)))
+                 ? monitor_at_start(setup_, *slide_, budget_, solver().sum_over_particles(monitor_kernel(setup_, 0.0)))
                  : RunMonitor{};
   monitor_.first_step = setup_.is_adaptive() ? adaptive_step() : 0.0;
 }

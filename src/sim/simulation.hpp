@@ -113,8 +113,12 @@ class Simulation {
     return slide_->grid;
   }
   [[nodiscard]] std::size_t particle_count() const { return slide_->particles.size(); }
-  // Sums over all particles, in host or device memory.
-  [[nodiscard]] BodySums<Dim> sum_over_body() const { return solver().sum_over_body(sums_of_particle()); }
+  // Sums over all particles, in host or device memory (device/reductions.hpp).
+  template <class Reduction>
+  [[nodiscard]] typename Reduction::Sums sum_over_particles(const Reduction& reduction) const {
+    return solver().sum_over_particles(reduction);
+  }
+  [[nodiscard]] BodySums<Dim> sum_over_body() const { return sum_over_particles(sums_of_particle()); }
   // Mass that counts for front, runout and travel distance.
   [[nodiscard]] MovedMass moved_mass() const;
   // Particle at the front of a mass along a line, or along the x axis if the line has no segments. At least one

@@ -10,7 +10,6 @@
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "device/solver.hpp"
-#include "mpm/sum_over_particles.hpp"
 #include "sim/setup/release_extent.hpp"
 
 namespace thawslide::sim {
@@ -27,12 +26,6 @@ std::vector<double> half_sizes(const Simulation<Dim>& simulation) {
     halves.push_back(simulation.model().motion.sizes.half(body) * simulation.grid().cell());
   }
   return halves;
-}
-
-mpm::MassMoments mass_moments(const Simulation<3>& simulation) {
-  const auto& particles = simulation.particles();
-  return mpm::sum_over_particles<mpm::MassMoments>(simulation.grid(),
-                                                   [&](std::uint32_t p) { return mpm::mass_moments_of(particles, p); });
 }
 
 // Elevation of the highest point of each body [m].
@@ -94,7 +87,7 @@ template <int Dim>
 void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->start(simulation.grid(), simulation.particles());
-    add_to_path(simulation, mass_moments(simulation));
+    add_to_path(simulation, simulation.sum_over_particles(mpm::MomentsOfParticle{}));
     tops_at_start_ = highest_points(simulation);
   }
 }
@@ -108,15 +101,16 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
     if (const device::MapSample* sample = simulation.sample_map(maps_->cells())) {
       const double mass = std::accumulate(sample->sums.begin(), sample->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
-      THAWSLIDE_ASSERT(std::abs(mass - sample->moments.mass) <= round_off * sample->moments.mass,
-                       "{} kg of {} kg lie over map cells that particles may reach", mass, sample->moments.mass);
+      const mpm::MassMoments moments = simulation.sum_over_particles(mpm::MomentsOfParticle{});
+      THAWSLIDE_ASSERT(std::abs(mass - moments.mass) <= round_off * moments.mass,
+                       "{} kg of {} kg lie over map cells that particles may reach", mass, moments.mass);
       maps_->gather(sample->keys, sample->sums, simulation.time(), below(sample->segments));
-      add_to_path(simulation, sample->moments);
+      add_to_path(simulation, moments);
       return;
     }
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below(simulation.segments_below()));
     if (!path_given_) {
-      add_to_path(simulation, mass_moments(simulation));
+      add_to_path(simulation, simulation.sum_over_particles(mpm::MomentsOfParticle{}));
     }
   }
 }

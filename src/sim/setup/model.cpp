@@ -128,28 +128,21 @@ void set_transfer(const config::Case& parameters, const Vector<double, Dim>& ori
 
 template <int Dim>
 mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vector<double, Dim>& origin) {
-  mpm::Constraints<Dim> constraints;
+  mpm::DomainFaces<Dim> faces;
   for (std::size_t a = 0; a < Dim; ++a) {
     const int i = static_cast<int>(a);
-    constraints.extent[i] = parameters.grid.max[a] - origin[i];
+    faces.extent[i] = parameters.grid.max[a] - origin[i];
     for (std::size_t side = 0; side < 2; ++side) {
-      constraints.faces[2 * a + side] = parameters.grid.boundary[2 * a + side];
+      faces.faces[2 * a + side] = parameters.grid.boundary[2 * a + side];
     }
   }
+  mpm::Constraints<Dim> constraints{faces.extent, {faces}};
   Vector<double, Dim> zero = origin;  // of the grid
   if (parameters.terrain.kind == config::TerrainKind::flat) {
     zero[Dim - 1] = parameters.terrain.elevation;
   }
   for (const auto& [name, frame] : parameters.frames) {
-    mpm::RigidFrame<Dim> rigid;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      const int i = static_cast<int>(a);
-      rigid.lower[i] = frame.min[a] - zero[i];
-      rigid.upper[i] = frame.max[a] - zero[i];
-    }
-    rigid.axis = frame.axis == "x" ? 0 : frame.axis == "y" ? 1 : 2;
-    rigid.velocity = frame.velocity;
-    constraints.frames.push_back(rigid);
+    constraints.conditions.push_back(mpm::RigidFrame<Dim>::from(frame, zero));
   }
   return constraints;
 }

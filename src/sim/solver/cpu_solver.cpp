@@ -250,15 +250,13 @@ band::StepExtremes CpuSolver<Dim>::extremes() const {
 }
 
 template <int Dim>
-mpm::MonitorSums CpuSolver<Dim>::monitor(const mpm::MonitorKernel<Dim>& kernel) const {
-  return mpm::sum_over_particles<mpm::MonitorSums>(slide_.grid,
-                                                   [&](std::uint32_t p) { return kernel(slide_.particles, p); });
-}
-
-template <int Dim>
-BodySums<Dim> CpuSolver<Dim>::sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const {
-  return mpm::sum_over_particles<BodySums<Dim>>(slide_.grid,
-                                                [&](std::uint32_t p) { return of_particle(slide_.particles, p); });
+AnySums<Dim> CpuSolver<Dim>::reduce(const AnyReduction<Dim>& reduction) const {
+  return std::visit(
+      [this]<class Reduction>(const Reduction& of) -> AnySums<Dim> {
+        return mpm::sum_over_particles<typename Reduction::Sums>(
+            slide_.grid, [&](std::uint32_t p) { return of(slide_.particles, p); });
+      },
+      reduction);
 }
 
 template <int Dim>

@@ -40,9 +40,8 @@ class CpuSolver final : public Solver<Dim> {
   void start() override {}
   StepSums<Dim> step(double dt, const terrain::StrengthLaw* strength) override;
   [[nodiscard]] bool none_has_left() const override { return false; }
+  [[nodiscard]] AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) const override;
   [[nodiscard]] band::StepExtremes extremes() const override;
-  [[nodiscard]] mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) const override;
-  [[nodiscard]] BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const override;
   [[nodiscard]] mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const override;
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& /*cells*/) const override { return nullptr; }
   [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override;

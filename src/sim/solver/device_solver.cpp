@@ -129,22 +129,12 @@ band::StepExtremes DeviceSolver<Dim>::extremes() const {
 }
 
 template <int Dim>
-mpm::MonitorSums DeviceSolver<Dim>::monitor(const mpm::MonitorKernel<Dim>& kernel) const {
+AnySums<Dim> DeviceSolver<Dim>::reduce(const AnyReduction<Dim>& reduction) const {
   if (!session_->solver) {
-    return host_.monitor(kernel);
+    return host_.reduce(reduction);
   }
-  mpm::MonitorSums sums;
-  call([&] { sums = session_->solver->monitor(kernel); });
-  return sums;
-}
-
-template <int Dim>
-BodySums<Dim> DeviceSolver<Dim>::sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const {
-  if (!session_->solver) {
-    return host_.sum_over_body(of_particle);
-  }
-  BodySums<Dim> sums;
-  call([&] { sums = session_->solver->sum_over_body(of_particle); });
+  AnySums<Dim> sums;
+  call([&] { sums = session_->solver->reduce(reduction); });
   return sums;
 }
 

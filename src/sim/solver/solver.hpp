@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "band/body_sums.hpp"
 #include "band/step_extremes.hpp"
+#include "device/reductions.hpp"
 #include "device/step_sums.hpp"
 #include "mpm/front.hpp"
-#include "mpm/monitor_sums.hpp"
 #include "terrain/strength_law.hpp"
 
 namespace thawslide::device {
@@ -19,7 +18,7 @@ struct MapCells;
 }  // namespace thawslide::mpm
 namespace thawslide::sim {
 
-using band::BodySums, device::StepSums;
+using band::BodySums, device::AnyReduction, device::AnySums, device::StepSums;
 
 // By block (ascending keys) and node of a block.
 struct MomentumOfNodes {
@@ -45,10 +44,14 @@ class Solver {
   // True if the last step has shown that no particle has left. Otherwise all have to be checked in host memory.
   [[nodiscard]] virtual bool none_has_left() const = 0;
 
-  // Reductions over all particles. Extremes limit the next step.
+  // Sums of a reduction over all particles.
+  template <class Reduction>
+  [[nodiscard]] typename Reduction::Sums sum_over_particles(const Reduction& reduction) const {
+    return std::get<typename Reduction::Sums>(reduce(reduction));
+  }
+  [[nodiscard]] virtual AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) const = 0;
+  // Extremes of all particles, which limit the next step.
   [[nodiscard]] virtual band::StepExtremes extremes() const = 0;
-  [[nodiscard]] virtual mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) const = 0;
-  [[nodiscard]] virtual BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) const = 0;
   // mass: of the bodies of the path [kg].
   [[nodiscard]] virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const = 0;
   // Sums for maps; null on the CPU, where maps read the particles.

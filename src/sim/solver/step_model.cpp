@@ -23,8 +23,8 @@ device::StepModel<Dim> step_model_of(const config::Case& parameters, const Model
   device.moves = parameters.mechanics.enabled;
   device.filters_in_step = [parameters](double time, double dt) { return filters_in_step(parameters, time, dt); };
   device.free_gaps = model.free_gaps;
-  device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
-  device.frames = model.constraints.frames;
+  device.extent = model.constraints.extent;
+  device.conditions = model.constraints.conditions;
   device.width = model.motion.width;
   device.between_bodies = model.between_bodies;
   if (model.between_bodies.any()) {

@@ -39,11 +39,8 @@ class ForwardingSolver : public device::Solver<Dim> {
     return steps_->step(time, dt, strength);
   }
   band::StepExtremes extremes() override { return steps_->extremes(); }
-  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return steps_->monitor(kernel); }
+  device::AnySums<Dim> reduce(const device::AnyReduction<Dim>& reduction) override { return steps_->reduce(reduction); }
   void sample_map(const mpm::MapCells& cells, device::MapSample& sample) override { steps_->sample_map(cells, sample); }
-  band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
-    return steps_->sum_over_body(of_particle);
-  }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override {
     return steps_->front(path, mass);
   }

@@ -308,10 +308,9 @@ TEST(Tile, StoresItsLayerAboveItsPosition) {
 // A block that reports no constraints has none, and many blocks report so.
 TEST(BlockConstraints, AgreeWithThoseOfTheirNodes) {
   Constraints<2> constraints;
-  constraints.extent = {70.0, 70.0};
-  constraints.faces[0] = BoundaryKind::fixed;
-  constraints.faces[3] = BoundaryKind::roller;
-  constraints.frames.push_back({{30.0, 22.0}, {33.0, 38.0}, 0, 4.0});
+  constraints.conditions = {
+      DomainFaces<2>{{70.0, 70.0}, {BoundaryKind::fixed, BoundaryKind::open, BoundaryKind::open, BoundaryKind::roller}},
+      RigidFrame<2>{{30.0, 22.0}, {33.0, 38.0}, 0, 4.0}};
   Crowd<2> crowd(3000);
   SparseGrid<2> grid(cell);
   grid.update(crowd.particles, 64);

@@ -35,7 +35,8 @@ class ManufacturedVibration {
     model_.sides.lower.fill(0);
     model_.sides.upper.fill(cells);
     constraints_.extent = Plane(1.0, 1.0);
-    std::fill(std::begin(constraints_.faces), std::end(constraints_.faces), mpm::BoundaryKind::roller);
+    constexpr auto roller = mpm::BoundaryKind::roller;
+    constraints_.conditions = {mpm::DomainFaces<2>{constraints_.extent, {roller, roller, roller, roller}}};
     fill(2 * cells);
   }
 

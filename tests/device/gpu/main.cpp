@@ -116,7 +116,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
   kernel.fast_distance = 6.0 * time_step;
   kernel.smallest_volume = 0.1;
   kernel.largest_volume = 10.0;
-  const mpm::MonitorSums seen = steps.monitor(kernel);
+  const auto seen = std::get<mpm::MonitorSums>(steps.reduce(kernel));
   const band::StepExtremes& extremes = sums.extremes;
   std::vector<double> numbers{extremes.density.value,
                               extremes.elastic_density.value,
@@ -129,7 +129,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
                               seen.potential,
                               seen.mass,
                               seen.fast_mass};
-  const band::BodySums<Dim> body = steps.sum_over_body(sums_of_particle<Dim>());
+  const auto body = std::get<band::BodySums<Dim>>(steps.reduce(sums_of_particle<Dim>()));
   numbers.insert(numbers.end(), {body.mass, body.kinetic, body.sensible, body.latent, body.water, body.gas,
                                  body.momentum[0], body.displacement, body.band_temperature});
   const sim::PathLine line = bent_line();
@@ -147,7 +147,8 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
   }
   device::MapSample map;
   steps.sample_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell}, map);
-  numbers.insert(numbers.end(), {map.moments.mass, map.moments.mass_x, map.moments.mass_y});
+  const auto moments = std::get<mpm::MassMoments>(steps.reduce(mpm::MomentsOfParticle{}));
+  numbers.insert(numbers.end(), {moments.mass, moments.mass_x, moments.mass_y});
   for (const mpm::MapSums& of_cell : map.sums) {
     numbers.insert(numbers.end(), {of_cell.column.volume, of_cell.column.mass, of_cell.column.momentum_x,
                                    of_cell.column.water, of_cell.band.volume, of_cell.band.volume_temperature});

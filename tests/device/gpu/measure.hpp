@@ -77,7 +77,7 @@ inline Measured measured(const device::SolverFactory<3>& make, std::size_t parti
   } while (of_steps.seconds() < seconds_at_least && done < first + 200);
   found.seconds_a_step = of_steps.seconds() / (done - first);  // a step ends with sums for which the CPU waits
   found.memory = free_before - free_memory();
-  const auto row = [&] { steps->front({}, steps->sum_over_body(sums_of_particle<3>()).mass); };
+  const auto row = [&] { steps->front({}, std::get<band::BodySums<3>>(steps->reduce(sums_of_particle<3>())).mass); };
   row();  // allocates memory
   const Stopwatch of_row;
   row();

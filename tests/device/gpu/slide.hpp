@@ -159,9 +159,9 @@ device::StepModel<Dim> model_of_slide() {
   model.band.hydraulic_conductivity = {1e-9};
   model.band_thickness = [cell = model.cell](double /*time*/) { return cell / 10.0; };
   model.band.region = band::BandRegion::first_layer;
-  model.faces.extent.setConstant(1e5);
+  model.extent.setConstant(1e5);
   model.lower.setZero();
-  model.upper = model.faces.extent;
+  model.upper = model.extent;
   model.base.grounds[0].friction = physics::basal::ConstantFriction{std::tan(20.0 * pi / 180.0)};
   model.base.grounds[0].cohesion = physics::basal::ConstantCohesion{0.0};
   model.contact.distance_check = true;
