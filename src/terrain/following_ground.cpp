@@ -297,12 +297,32 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, int edge, GroundAtNo
   }
 }
 
+// Most particles lie in the same columns as the one before.
 template <int Dim>
 void FollowingGround<Dim>::locate(mpm::Particles<Dim>& particles) const {
-  const auto height = [this](const Column& column) { return column_height(column); };
-  const LocateAboveGround<Dim, decltype(height)> locate_one{columns_, height, sizes_.view(), cell_};
-  parallel_for(particles.size(), std::size_t{1024},
-               [&](std::size_t p) { locate_one(particles, mpm::ScalarIndex{{static_cast<std::uint32_t>(p)}}); });
+  struct HeightsOfLast {
+    const FollowingGround* ground;
+    mutable Column lowest{};
+    mutable double heights[Dim == 2 ? 3 : 9] = {};
+    mutable bool is_known = false;
+
+    void around(const Column& column, double* found) const {
+      if (!is_known || column != lowest) {
+        lowest = column;
+        is_known = true;
+        heights_around<Dim>(lowest, HeightOfColumn{ground}, heights);
+      }
+      std::copy(std::begin(heights), std::end(heights), found);
+    }
+  };
+  constexpr std::size_t of_task = 1024;
+  const std::size_t count = particles.size();
+  parallel_for((count + of_task - 1) / of_task, [&](std::size_t task) {
+    const LocateAboveGround<Dim, HeightsOfLast> locate_one{columns_, {this}, sizes_.view(), cell_};
+    for (std::size_t p = task * of_task; p < std::min(count, (task + 1) * of_task); ++p) {
+      locate_one(particles, mpm::ScalarIndex{{static_cast<std::uint32_t>(p)}});
+    }
+  });
 }
 
 template class FollowingGround<2>;
