@@ -1,12 +1,15 @@
-// The executor on the CPU, and sums by key on it.
+// The executor on the CPU, and lists and sums on it.
 #include "exec/cpu.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "exec/keyed_parts.hpp"
+#include "exec/ordered_sum.hpp"
+#include "exec/selection.hpp"
 
 namespace thawslide::exec {
 namespace {
@@ -67,6 +70,48 @@ TEST(KeyedParts, AreAddedInTheOrderOfTheirPlaces) {
   for (std::size_t c = 0; c < keys.size(); ++c) {
     EXPECT_EQ(parts.sums()[c].letters, expected[c].letters);
   }
+}
+
+TEST(OrderedSum, AddsRunsAndThenTheirSums) {
+  constexpr std::size_t count = 5 * parts_of_a_run + 3;
+  Cpu cpu;
+  OrderedSum<Word, Cpu> sum(cpu);
+  Word expected{};
+  Word* parts = sum.parts(count);
+  for (std::size_t run = 0; run < runs_of(count); ++run) {
+    Word of_run{};
+    for (std::size_t k = run * parts_of_a_run; k < std::min(count, (run + 1) * parts_of_a_run); ++k) {
+      parts[k] = {k};
+      of_run += parts[k];
+    }
+    expected += of_run;
+  }
+  EXPECT_EQ(sum.total().letters, expected.letters);
+  static_cast<void>(sum.parts(0));
+  EXPECT_EQ(sum.total().letters, Word{}.letters);
+}
+
+TEST(Selection, KeepsMarkedItemsInOrderAndAGrownArrayItsContents) {
+  constexpr std::size_t count = 1000;
+  Cpu cpu;
+  Array<std::size_t, Cpu> items(cpu), kept(cpu);
+  for (std::size_t k = 0; k < count; ++k) {
+    items.grow(k + 1);
+    items.data()[k] = k;
+  }
+  Selection<Cpu> selection(cpu);
+  std::uint32_t* marks = selection.marks(count);
+  std::vector<std::size_t> expected;
+  for (std::size_t k = 0; k < count; ++k) {
+    marks[k] = key_of(k) % 2 == 0 && k % 3 != 0 ? 1 : 0;
+    if (marks[k] != 0) {
+      expected.push_back(k);
+    }
+  }
+  selection.keep(items, kept);
+  EXPECT_EQ(kept.get(), expected);
+  static_cast<void>(selection.marks(0));
+  EXPECT_EQ(selection.count(), 0u);
 }
 
 }  // namespace
