@@ -136,8 +136,8 @@ class BasalSegments {
 
   template <class Base>
   [[nodiscard]] auto bare_nodes(const Base& base, std::uint32_t* is_bare) {
-    return FindBareNodes<decltype(base.nodes), decltype(base.ground), Dim>{
-        base.tables, states(), cell_, base.nodes, base.ground, is_bare, any_.data()};
+    return FindBareNodes<decltype(base.nodes), decltype(base.ground), Dim>{states(),    cell_,   base.nodes,
+                                                                           base.ground, is_bare, any_.data()};
   }
   template <class Base>
   bool some_node_is_bare(const Base& base) {

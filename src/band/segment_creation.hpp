@@ -12,7 +12,6 @@ template <class Nodes, class Ground, int Dim>
 struct FindBareNodes {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
-  mpm::BlockTables<Dim> tables;
   mpm::BaseStates<Dim> states;
   double cell;
   Nodes nodes;
@@ -22,7 +21,7 @@ struct FindBareNodes {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t b = k / block_nodes, node = k % block_nodes;
-    const bool is_above = mpm::Tile<Dim>::index(tables.block_keys[b])[Dim - 1] > 0;
+    const bool is_above = states.ground_block[b] == exec::absent;
     const bool touches = !is_above && nodes.template read<Contact>(nodes.node(b, node))[Contact::touching] > 0.0;
     const bool is_unseen = touches && !(states.at(b, node)[BaseState::area] > 0.0);
     if (is_unseen) {

@@ -102,7 +102,7 @@ struct AddToPatch {
     }
   }
 };
-// Block of layer 0 in the column of a block on the ground or below it. One thread per block.
+// Block of layer 0 in the column of a block on the ground or below it, as in mpm::BaseStates. One thread per block.
 template <int Dim>
 struct FindGroundBlock {
   using T = mpm::Tile<Dim>;
@@ -116,8 +116,9 @@ struct FindGroundBlock {
     if (tile[Dim - 1] < 0) {
       tile[Dim - 1] = 0;
       found = exec::index_of_key(tables.block_keys, tables.blocks, T::key(tile));
+      found = found == exec::absent ? static_cast<std::int32_t>(tables.blocks) : found;
     }
-    ground_block[b] = found == exec::absent ? static_cast<std::int32_t>(tables.blocks) : found;
+    ground_block[b] = found;
   }
 };
 // Sums the patches at the nodes of layer 0. One thread per block and node, and one more block of zeros.
