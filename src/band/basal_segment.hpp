@@ -14,15 +14,19 @@
 namespace thawslide::band {
 
 template <int Dim>
-struct BasalSegment {
+struct SegmentShape {
   using Sides = Eigen::Matrix<double, Dim, Dim - 1>;
 
-  std::int64_t id = 0;
   Vector<double, Dim> position;  // of its centre, on the ground [m]
   Vector<double, Dim> normal;    // unit vector into the ground
+  Sides sides;                   // its edges along the ground [m]; one in 2D
+};
+
+template <int Dim>
+struct BasalSegment : SegmentShape<Dim> {
+  std::int64_t id = 0;
   // Velocity of the sliding mass around the segment, along the ground, at the column's last step [m/s].
   Vector<double, Dim> velocity = Vector<double, Dim>::Zero();
-  Sides sides;                 // its edges along the ground [m]; one in 2D
   double area = 0;             // [m2]; [m2 per metre of width] in 2D
   double area_of_column = 0;   // reference area of the column's quantities per area [m2]
   double slip = 0;             // [m]

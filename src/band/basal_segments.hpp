@@ -182,10 +182,11 @@ class BasalSegments {
     locate(base.tables, segments_.data() + known, count);
     add_to_nodes(base.tables, true);
     sum_motion(base);
-    executor_.for_each(
-        count, StartSegment<Ground, Dim>{base.tables, model_, gravity_, thickness, cell_, base.ground, records_.data(),
-                                         contact_.data(), motion_.data(), stencils_.data(), segments_.data() + known,
-                                         areas_.data(), budgets_.parts(count)});
+    Segment* created = segments_.data() + known;
+    executor_.for_each(count, StartSegment<Ground, Dim>{base.tables, model_, gravity_, base.ground, records_.data(),
+                                                        contact_.data(), stencils_.data(), created, areas_.data()});
+    executor_.for_each(count, StartColumn<Dim>{model_, thickness, created, budgets_.parts(count)});
+    executor_.for_each(count, SetVelocity<Dim>{base.tables, cell_, motion_.data(), stencils_.data(), created});
     state_.budget += budgets_.total();
     add_to_nodes(base.tables, true);
     locate(base.tables, segments_.data(), segments_.size());
@@ -225,16 +226,15 @@ class BasalSegments {
   void split(const Ground& ground) {
     constexpr double longest = 1.5;  // side of a segment along an axis, in cells
     const std::size_t count = segments_.size();
-    SplitLong<Ground, Dim> splitting{longest * cell_, ground, count, state_.next_id, nullptr, segments_.data()};
-    executor_.for_each(count, CountSplits<Ground, Dim>{splitting, selection_.marks(count)});
+    const Splitting<Ground, Dim> splitting{longest * cell_, ground};
+    executor_.for_each(count, CountSplits<Ground, Dim>{splitting, segments_.data(), selection_.marks(count)});
     const std::size_t added = selection_.count();
     if (added == 0) {
       return;
     }
     segments_.grow(count + added);
-    splitting.before = selection_.before();
-    splitting.segments = segments_.data();
-    executor_.for_each(count, splitting);
+    executor_.for_each(count,
+                       SplitLong<Ground, Dim>{splitting, count, state_.next_id, selection_.before(), segments_.data()});
     state_.next_id += static_cast<std::int64_t>(added);
   }
   template <class Ground>

@@ -119,7 +119,7 @@ struct CreateSegment {
     areas[k] = segment.area;
   }
 };
-// Starts the column of a new segment with its contact area and force: nodes distribute theirs over the segments in
+// Sets the area and load of a new segment from its contact area and force: nodes distribute theirs over the segments in
 // reach. At the edge of the sliding mass, a segment is smaller than its lattice cell. One thread per new segment.
 template <class Ground, int Dim>
 struct StartSegment {
@@ -128,15 +128,12 @@ struct StartSegment {
   mpm::BlockTables<Dim> tables;
   ColumnsModel model;
   Vector<double, Dim> gravity;
-  double thickness, cell;
   Ground ground;
   const BaseRecord<Dim>* records;
   const InContact* contact;
-  const ColumnMotion<Dim>* motion;
   const BaseStencil<Dim>* stencils;
   BasalSegment<Dim>* created;
   double* areas;  // change
-  ColumnLedger* budgets;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     BasalSegment<Dim>& segment = created[k];
@@ -154,13 +151,39 @@ struct StartSegment {
     segment.area = segment.area_of_column = area_on(ground, segment);
     update_load(model, gravity, around.area > 0.0 ? around.normal_force / around.area : 0.0,
                 around.normal_force / segment.area, 0.0, segment);
+  }
+};
+// One thread per new segment.
+template <int Dim>
+struct StartColumn {
+  static constexpr std::size_t of_task = 16;
+
+  ColumnsModel model;
+  double thickness;
+  BasalSegment<Dim>* created;
+  ColumnLedger* budgets;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    BasalSegment<Dim>& segment = created[k];
     start_column_of(model, thickness, segment);
     keep_means(model, segment);
-    segment.velocity = slide_near(tables, cell, stencils[k], motion, segment.normal).velocity;
     ColumnLedger budget;
     budget.created_heat = segment.area * physics::heat_of(segment.column);
     budget.created_water = segment.area * physics::water_of(segment.column);
     budgets[k] = budget;
+  }
+};
+// One thread per new segment.
+template <int Dim>
+struct SetVelocity {
+  mpm::BlockTables<Dim> tables;
+  double cell;
+  const ColumnMotion<Dim>* motion;
+  const BaseStencil<Dim>* stencils;
+  BasalSegment<Dim>* created;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    created[k].velocity = slide_near(tables, cell, stencils[k], motion, created[k].normal).velocity;
   }
 };
 

@@ -12,12 +12,12 @@ namespace thawslide::band {
 
 // Area of ground spanned by the edges of a segment [m2].
 template <class Ground, int Dim>
-THAWSLIDE_HD double area_on(const Ground& ground, const BasalSegment<Dim>& segment) {
+THAWSLIDE_HD double area_on(const Ground& ground, const SegmentShape<Dim>& segment) {
   const Vector<double, Dim - 1> point = segment.position.template head<Dim - 1>();
   return ground.width(point) * area_of<Dim>(segment.sides);
 }
 template <class Ground, int Dim>
-THAWSLIDE_HD void place_on(const Ground& ground, BasalSegment<Dim>& segment) {
+THAWSLIDE_HD void place_on(const Ground& ground, SegmentShape<Dim>& segment) {
   const Vector<double, Dim> before = segment.normal;
   const Vector<double, Dim - 1> point = segment.position.template head<Dim - 1>();
   const auto below = ground.below(point);
@@ -178,67 +178,72 @@ struct FollowSlide {
   }
 };
 
-// Splits a segment with a side longer than `longest` [m] along an axis into two, along this side.
+// Splits segments with a side longer than `longest` [m] along an axis into two, along this side.
 template <class Ground, int Dim>
-struct SplitLong {
-  static constexpr std::size_t of_task = 64;
+struct Splitting {
+  using Shape = SegmentShape<Dim>;
 
   double longest;
   Ground ground;
+
+  [[nodiscard]] THAWSLIDE_HD bool is_long(const Shape& segment, int side) const {
+    return segment.sides.col(side).cwiseAbs().maxCoeff() > longest;
+  }
+  // other: an equal segment, which becomes the second part.
+  THAWSLIDE_HD void split(int side, Shape& segment, Shape& other) const {
+    const Vector<double, Dim> quarter = 0.25 * segment.sides.col(side);
+    for (Shape* part : {&segment, &other}) {
+      part->sides.col(side) *= 0.5;
+    }
+    segment.position -= quarter;
+    other.position += quarter;
+    place_on(ground, segment);
+    place_on(ground, other);
+  }
+};
+// Number of new segments from each. One thread per segment.
+template <class Ground, int Dim>
+struct CountSplits {
+  Splitting<Ground, Dim> splitting;
+  const BasalSegment<Dim>* segments;
+  std::uint32_t* count;
+
+  THAWSLIDE_HD void operator()(std::size_t p) const {
+    SegmentShape<Dim> segment = segments[p];
+    count[p] = 0;
+    for (int side = 0; side + 1 < Dim; ++side) {
+      if (splitting.is_long(segment, side)) {
+        SegmentShape<Dim> other = segment;
+        splitting.split(side, segment, other);
+        ++count[p];
+      }
+    }
+  }
+};
+// The new segments follow the others. One thread per segment.
+template <class Ground, int Dim>
+struct SplitLong {
+  Splitting<Ground, Dim> splitting;
   std::size_t segment_count;
   std::int64_t next_id;
   const std::uint32_t* before;  // by segment: new ones of those before it
   BasalSegment<Dim>* segments;
 
   THAWSLIDE_HD void operator()(std::size_t p) const {
+    BasalSegment<Dim>& segment = segments[p];
     std::uint32_t number = before[p];
-    split(segments[p], [&](const BasalSegment<Dim>& part) {
-      BasalSegment<Dim>& added = segments[segment_count + number];
-      added = part;
-      added.id = next_id + number++;
-    });
-  }
-  // Calls add(part) for each part that becomes a segment of its own.
-  template <class Add>
-  THAWSLIDE_HD void split(BasalSegment<Dim>& segment, const Add& add) const {
     for (int side = 0; side + 1 < Dim; ++side) {
-      if (!is_long(segment, side)) {
+      if (!splitting.is_long(segment, side)) {
         continue;
       }
-      const Vector<double, Dim> quarter = 0.25 * segment.sides.col(side);
-      segment.sides.col(side) *= 0.5;
       segment.area *= 0.5;
       segment.area_of_column *= 0.5;
       segment.heat *= 0.5;
-      BasalSegment<Dim> other = segment;
-      segment.position -= quarter;
-      other.position += quarter;
-      place_on(ground, segment);
-      place_on(ground, other);
-      add(other);
+      BasalSegment<Dim>& other = segments[segment_count + number];
+      other = segment;
+      other.id = next_id + number++;
+      splitting.split(side, segment, other);
     }
-  }
-  [[nodiscard]] THAWSLIDE_HD bool is_long(const BasalSegment<Dim>& segment, int side) const {
-    return segment.sides.col(side).cwiseAbs().maxCoeff() > longest;
-  }
-};
-// Number of new segments from each. One thread per segment.
-template <class Ground, int Dim>
-struct CountSplits {
-  SplitLong<Ground, Dim> splitting;
-  std::uint32_t* count;
-
-  THAWSLIDE_HD void operator()(std::size_t p) const {
-    bool any = false;
-    for (int side = 0; side + 1 < Dim; ++side) {
-      any = any || splitting.is_long(splitting.segments[p], side);
-    }
-    std::uint32_t number = 0;
-    if (any) {
-      BasalSegment<Dim> segment = splitting.segments[p];
-      splitting.split(segment, [&](const BasalSegment<Dim>& /*part*/) { ++number; });
-    }
-    count[p] = number;
   }
 };
 

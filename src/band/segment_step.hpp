@@ -126,9 +126,9 @@ struct SummarizeSegment {
 // limited to the flow depth above it.
 template <int Dim>
 THAWSLIDE_HD void start_column_of(const ColumnsModel& model, double thickness, BasalSegment<Dim>& segment) {
-  segment.column = model.column.visit([&](const auto& column) {
-    return physics::start_column(column, thickness, physics::cell_growth_below(segment.depth, thickness, column.growth),
-                                 model.body_temperature, model.ground_temperature, segment.load);
+  model.column.visit([&](const auto& column) {
+    physics::start_column(column, thickness, physics::cell_growth_below(segment.depth, thickness, column.growth),
+                          model.body_temperature, model.ground_temperature, segment.load, segment.column);
   });
 }
 

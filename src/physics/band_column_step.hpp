@@ -80,9 +80,10 @@ inline THAWSLIDE_HD double water_of(const BandColumn& column) {
 
 // Column in material of uniform temperature [C], with pores full of ice and water.
 template <class Curve>
-THAWSLIDE_HD BandColumn start_column(const ColumnModel<Curve>& model, double thickness, double cell_growth,
-                                     double temperature, double ground_temperature, double normal_pressure) {
-  BandColumn column{};
+THAWSLIDE_HD void start_column(const ColumnModel<Curve>& model, double thickness, double cell_growth,
+                               double temperature, double ground_temperature, double normal_pressure,
+                               BandColumn& column) {
+  column = {};
   column.thickness = thickness;
   column.cell_growth = cell_growth;
   const ColumnGrid grid = grid_of(model, column);
@@ -103,6 +104,12 @@ THAWSLIDE_HD BandColumn start_column(const ColumnModel<Curve>& model, double thi
     }
   }
   set_pressures(model, PressureBounds(model, normal_pressure, column), column);
+}
+template <class Curve>
+BandColumn start_column(const ColumnModel<Curve>& model, double thickness, double cell_growth, double temperature,
+                        double ground_temperature, double normal_pressure) {
+  BandColumn column;
+  start_column(model, thickness, cell_growth, temperature, ground_temperature, normal_pressure, column);
   return column;
 }
 
