@@ -210,34 +210,5 @@ TEST(Transfer, ReadsTheSameForAnyRunsInSpace) { expect_the_same_readings_by_any_
 TEST(LinearShape, ReproducesALinearFieldInThePlane) { expect_linear_shape_reproduces_a_linear_field<2>(); }
 TEST(LinearShape, ReproducesALinearFieldInSpace) { expect_linear_shape_reproduces_a_linear_field<3>(); }
 
-TEST(SparseGrid, OrderDoesNotDependOnPositionsInMemory) {
-  Particles<2> straight, shuffled;
-  fill<2>(straight, 1000);
-  fill<2>(shuffled, 1000);
-  std::vector<std::uint32_t> places(1000);
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    places[k] = static_cast<std::uint32_t>((k * 387) % 1000);
-  }
-  shuffled.reorder(places);
-  SparseGrid<2> first(5.0), second(5.0);
-  first.update(straight, 64);
-  second.update(shuffled, 64);
-  ASSERT_EQ(first.order().size(), second.order().size());
-  for (std::size_t k = 0; k < first.order().size(); ++k) {
-    EXPECT_EQ(straight.id(first.order()[k]), shuffled.id(second.order()[k]));
-  }
-}
-
-TEST(SparseGrid, HasBlocksAtParticlesOnly) {
-  Particles<2> particles;
-  particles.resize(2);
-  particles.id(1) = 1;
-  particles.position(0, 0) = particles.position(0, 1) = 100.0;
-  particles.position(1, 0) = particles.position(1, 1) = 900000.0;
-  SparseGrid<2> grid(5.0);
-  grid.update(particles, 64);
-  EXPECT_LE(grid.blocks().size(), 18U) << "two particles a million metres apart touch at most 9 blocks each";
-}
-
 }  // namespace
 }  // namespace thawslide::mpm

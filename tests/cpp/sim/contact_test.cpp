@@ -1,4 +1,4 @@
-// Contact with the ground: contact area of a body, pressure, effects of walls and impulses.
+// Contact with the ground: effects of walls, impulses, and settling.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 
 #include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
-#include "base/portability.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -15,88 +14,27 @@ namespace {
 
 using namespace testing_support;
 
-// A slab 25 m thick and 240 m long (along the slope), cut off upright at its ends, on a plane that falls by 48 degrees.
-constexpr double slope = 48.0;
-constexpr double length = 240.0;
+// A block on flat ground against a roller: the node shared by wall and ground keeps the boundary condition of the wall.
+const Variant cornered{
+    "block",
+    "case.gravity_tilt=-20; time.end=2; grid.min=[0,-10]; grid.max=[100,60]; grid.boundary.x_min=roller; "
+    "basal.friction_angle=5; heat.enabled=true; pressure.enabled=true"};
 
-Variant slab_on_plane() {
-  const double angle = slope * pi / 180.0;
-  const double run = length * std::cos(angle), fall = length * std::sin(angle);
-  const double rise = 25.0 / std::cos(angle);
-  return {"block",
-          "time.end=3; time.history_interval=0.01; grid.min=[-20,-400]; grid.max=[400,100]; terrain.type=plane; "
-          "terrain.elevation=1.3; body.block.shape=polygon; mechanics.slope_shear=true; basal.friction_angle=30; "
-          "heat.enabled=true; pressure.enabled=true; " +
-              fmt::format("terrain.slope={}; body.block.vertices=[[0.0, 1.3], [{:.6f}, {:.6f}], [{:.6f}, "
-                          "{:.6f}], [0.0, {:.6f}]]",
-                          slope, run, 1.3 - fall, run, 1.3 - fall + rise, 1.3 + rise)};
-}
-
-// Means over the second half of a run: contact area [m2] and its change, force on the ground [N].
-struct MeanContact {
-  double area = 0.0, normal = 0.0, tangential = 0.0, mass = 0.0, velocity = 0.0;
-};
-
-MeanContact mean_contact(const Sets& sets) {
-  Simulation<2> simulation(paper_case(slab_on_plane(), sets));
-  run_until(simulation, 1.5);
-  MeanContact mean;
-  int count = 0;
-  const double angle = slope * pi / 180.0;
-  const Vector<double, 2> down(-std::sin(angle), -std::cos(angle)), along(std::cos(angle), -std::sin(angle));
-  while (simulation.time() < 3.0 - 1e-9) {
-    simulation.step(0.001);
-    mean.area += simulation.contact().area;
-    mean.normal += simulation.contact().force.dot(down);
-    mean.tangential += simulation.contact().force.dot(along);
-    ++count;
-  }
-  const auto row = history_row(simulation);
-  return {mean.area / count, mean.normal / count, mean.tangential / count, value_of(row, "mass_kg"),
-          value_of(row, "mean_velocity_m_s")};
-}
-
-TEST(ContactArea, OfASlabAtRestOnASlopeThroughTheGridIsItsBase) {
-  const MeanContact seen = mean_contact({"basal.friction_angle=60.0"});
-  EXPECT_LT(seen.velocity, 0.05);
-  EXPECT_NEAR(seen.area / length, 1.0, 0.05);
-  EXPECT_NEAR(seen.normal / (seen.mass * 9.81 * std::cos(slope * pi / 180.0)), 1.0, 0.01);
-}
-
-TEST(ContactArea, OfASlidingSlabIsItsBase) {
-  const MeanContact seen = mean_contact({});
-  EXPECT_GT(seen.velocity, 5.0);
-  EXPECT_NEAR(seen.area / length, 1.0, 0.05);
-  EXPECT_NEAR(seen.tangential / seen.normal, std::tan(pi / 6.0), 1e-3);
-}
-
-// Friction from cohesion alone is cohesion times the base, at any angle to the grid.
-TEST(ContactArea, CohesionActsOnTheBase) {
-  const MeanContact seen = mean_contact("basal.friction_angle=0.0; basal.cohesion=1e5; basal.cohesion_law=constant");
-  EXPECT_GT(seen.velocity, 5.0);
-  EXPECT_NEAR(seen.tangential / (1e5 * length), 1.0, 0.05);
-}
-
-// The momentum of the slab equals its initial momentum plus the impulses of gravity, ground and walls, to round-off.
+// The momentum of the block equals its initial momentum plus the impulses of gravity, ground and wall, to round-off.
 TEST(Budget, OfMomentumCloses) {
-  Simulation<2> simulation(paper_case(slab_on_plane(), "grid.boundary.x_min=roller; mechanics.mass_damping=0.1"));
-  run_until(simulation, 2.0);
+  Simulation<2> simulation(paper_case(cornered, "body.block.velocity=[-5,0]; mechanics.mass_damping=0.1"));
+  run_until(simulation, 0.1);
   const auto row = history_row(simulation);
   for (const std::string axis : {"x", "y"}) {
     const double given = std::abs(value_of(row, "gravity_impulse_y_N_s"));
     EXPECT_LT(std::abs(value_of(row, "momentum_residual_" + axis + "_N_s")), 1e-11 * given);
     EXPECT_GT(std::abs(value_of(row, "momentum_" + axis + "_N_s")), 1e-2 * given);
     EXPECT_GT(std::abs(value_of(row, "ground_impulse_" + axis + "_N_s")), 1e-2 * given);
-    EXPECT_GT(std::abs(value_of(row, "constraint_impulse_" + axis + "_N_s")), 1e-3 * given);
   }
+  EXPECT_GT(std::abs(value_of(row, "constraint_impulse_x_N_s")),
+            1e-2 * std::abs(value_of(row, "gravity_impulse_y_N_s")));
   EXPECT_EQ(value_of(row, "mass_residual_kg"), 0.0);
 }
-
-// A block on flat ground against a roller: the node shared by wall and ground keeps the boundary condition of the wall.
-const Variant cornered{
-    "block",
-    "case.gravity_tilt=-20; time.end=2; grid.min=[0,-10]; grid.max=[100,60]; grid.boundary.x_min=roller; "
-    "basal.friction_angle=5; heat.enabled=true; pressure.enabled=true"};
 
 TEST(Walls, ApplyWhereTheyMeetTheGround) {
   Simulation<2> simulation(paper_case(cornered));

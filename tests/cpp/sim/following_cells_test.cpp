@@ -26,19 +26,6 @@ template <int Dim, class Make, class Visit>
 void expect_the_same_bits(const Make& make, int steps, const Visit& visit) {
   expect_reproducible_run<Dim>(make, steps, {{2, 7, -1}, {3, 1, steps / 2}, {4, 3, steps - 1}}, visit);
 }
-template <int Dim, class Make>
-void expect_the_same_bits(const Make& make, int steps) {
-  expect_the_same_bits<Dim>(make, steps, [](const Simulation<Dim>& /*simulation*/, int /*step*/) {});
-}
-
-TEST(FollowingCells, ResultsAreReproducibleInThePlane) {
-  expect_the_same_bits<2>([] { return slide_on_plane(30.0); }, 60);
-}
-
-TEST(FollowingCells, ResultsAreReproducibleInSpace) {
-  expect_the_same_bits<3>([] { return slide_in_gully(); }, 30);
-}
-
 // The terrain falls to -80 m, and the lowest particle starts above -9 m.
 TEST(FollowingCells, TheElevationOfTheLowerCornerHasNoEffect) {
   const auto slide = [](const char* lowest) {
