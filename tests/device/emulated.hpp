@@ -1,4 +1,5 @@
-// Steps of the GPU backend emulated on the CPU, one thread at a time, in the requested order.
+// Steps of the GPU backend emulated on the CPU, one thread at a time, in the requested order. threads: of a group; 0:
+// as the backend requests.
 #pragma once
 
 #include "device/host_backend.hpp"
@@ -7,6 +8,6 @@
 namespace thawslide::device {
 
 template <int Dim>
-SolverFactory<Dim> emulated(ThreadOrder order = ThreadOrder::forward);
+SolverFactory<Dim> emulated(ThreadOrder order = ThreadOrder::forward, std::size_t threads = 0);
 
 }  // namespace thawslide::device

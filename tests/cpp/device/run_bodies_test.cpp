@@ -1,6 +1,5 @@
 // Contact between bodies, release in stages and sections of varying width: runs on the CPU emulation of the GPU backend
 // compared with runs on the CPU.
-#include "../support/small_terrain.hpp"
 #include "run_on_device.hpp"
 
 namespace thawslide::sim {
@@ -71,42 +70,22 @@ TEST(DeviceRunOfBodies, SplitsTheParticlesOfStages) {
 }
 
 TEST(DeviceRunOfBodies, KeepsBandColumnsAndTheBedOfStages) {
-  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(left_held<2>(0.03) + Sets(on_columns)), 45), 0);
+  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(left_held<2>(0.03) + on_columns), 45), 0);
   const Sets bed = loose_bed() + Sets("bed.law=momentum; pressure.frozen=none");
   EXPECT_GT(expect_the_same_run<2>(sliding_bodies<2>(left_held<2>(0.03) + bed), 90), 0);
 }
 
-TEST(DeviceRunOfBodies, SettlesStages) {
-  const config::Case parameters = sliding_bodies<2>(
-      left_held<2>(0.02) +
-      Sets("mechanics.initial_stress=settle; mechanics.settle_time=0.1; mechanics.settle_damping=5.0"));
-  Simulation<2> on_cpu(parameters), on_device(parameters);
-  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::shuffled));
-  EXPECT_TRUE(on_cpu.settle() && on_device.settle());
-  for (int k = 0; k < 20; ++k) {
-    on_cpu.step(0.002);
-    on_device.step(0.002);
-  }
-  expect_the_same_particles(on_device, on_cpu);
-}
+TEST(DeviceRunOfBodies, SettlesStages) { expect_the_same_settling(left_held<2>(0.02)); }
 
 TEST(DeviceRunOfBodies, RemovesParticlesThatLeaveAnotherBody) {
   const Sets sets = left_held<2>(0.2) + Sets("grid.leaving=remove; grid.max=[12.0,18.0]; body.right.velocity=[12,0]");
-  Simulation<2> simulation(sliding_bodies<2>(sets));
-  while (simulation.removed().left == 0) {
-    simulation.step(0.002);
-  }
-  const auto first = static_cast<int>(simulation.step_number());
+  const int first = steps_until_one_leaves(sliding_bodies<2>(sets));
   EXPECT_GT(expect_the_same_run<2>(sliding_bodies<2>(sets), first + 20), 0);
 }
 
 TEST(DeviceRunOfBodies, KeepsStagesOnADem) {
-  config::Site site;
-  site.ground = std::make_shared<const Raster>(raster(-10.0, -10.0, 2.0, 60, 16, [](double x, double y) {
-    return 0.1 * std::sin(0.7 * x) * std::cos(0.9 * y) - 0.11;
-  }));
   for (const Sets& sets : {left_held<3>(0.012), left_held<3>(0.012) + contact}) {
-    EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(on_dem() + sets), 12, site), 0);
+    EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(on_dem() + sets), 12, bumpy_site()), 0);
   }
 }
 
@@ -118,7 +97,7 @@ TEST(DeviceRunOfBodies, HasTheVaryingWidthOfASection) {
             0);
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(passed + "material.melted.viscosity_time=1e-4"), 25), 0);
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(width + "pressure.frozen=none"), 25), 0);
-  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(Sets(on_columns) + width), 45), 0);
+  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(on_columns + width), 45), 0);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 TEST(DeviceRun, FailsWithTheSameMessage) {
   const config::Case parameters = sliding_bodies<2>();
   Simulation<2> on_cpu(parameters), on_device(parameters);
-  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
+  on_device.use_device("a GPU", emulated_gpu<2>({ThreadOrder::forward}));
   for (Simulation<2>* simulation : {&on_cpu, &on_device}) {
     for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
       simulation->particles().velocity(p, 0) = -500.0;
@@ -45,7 +45,7 @@ class FailingSolver final : public ForwardingSolver<2> {
 device::SolverFactory<2> failing_gpu(int steps_before_failure) {
   return [steps_before_failure](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
     return std::make_unique<FailingSolver>(
-        emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(callbacks)), steps_before_failure);
+        emulated_gpu<2>({ThreadOrder::forward})(model, particles, count, std::move(callbacks)), steps_before_failure);
   };
 }
 
@@ -85,7 +85,7 @@ void expect_continuation(const Sets& sets) {
   const config::Case parameters = sliding_bodies<2>(Sets("time.stepping=adaptive") + sets);
   Simulation<2> whole(parameters), first(parameters);
   for (Simulation<2>* simulation : {&whole, &first}) {
-    simulation->use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
+    simulation->use_device("a GPU", emulated_gpu<2>({ThreadOrder::forward}));
   }
   const auto advance = [](Simulation<2>& simulation, int steps) {
     for (int k = 0; k < steps; ++k) {
@@ -100,7 +100,7 @@ void expect_continuation(const Sets& sets) {
   for (const bool on_device : {false, true}) {
     Simulation<2> second(parameters);
     if (on_device) {
-      second.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
+      second.use_device("a GPU", emulated_gpu<2>({ThreadOrder::backward}));
     }
     std::vector<double> numbers;
     io::read_checkpoint<2>(io::newest_checkpoint(folder), second.particles(), numbers);

@@ -15,6 +15,7 @@
 #include "../../device/emulated.hpp"
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
+#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
@@ -24,9 +25,17 @@ namespace thawslide::sim {
 using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
+// Threads of the emulation: their order, the size of their groups (0: as requested), and the number of steps after
+// which particles are sorted in memory (0: never).
+struct Threads {
+  ThreadOrder order = ThreadOrder::shuffled;
+  std::size_t group = 0;
+  int sorting_interval = 32;
+};
+
 template <int Dim>
-device::SolverFactory<Dim> emulated_gpu(ThreadOrder order) {
-  return device::emulated<Dim>(order);
+device::SolverFactory<Dim> emulated_gpu(const Threads& threads) {
+  return device::emulated<Dim>(threads.order, threads.group);
 }
 
 // Forwards all calls to another solver; tests override some of them.
@@ -74,10 +83,10 @@ class CopyCountingSolver final : public ForwardingSolver<Dim> {
   int& copies_;
 };
 template <int Dim>
-device::SolverFactory<Dim> counting_copies(ThreadOrder order, int& copies) {
-  return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
+device::SolverFactory<Dim> counting_copies(const Threads& threads, int& copies) {
+  return [threads, &copies](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
     return std::make_unique<CopyCountingSolver<Dim>>(
-        emulated_gpu<Dim>(order)(model, particles, count, std::move(callbacks)), copies);
+        emulated_gpu<Dim>(threads)(model, particles, count, std::move(callbacks)), copies);
   };
 }
 
@@ -107,24 +116,55 @@ std::string error_of(Simulation<Dim>& simulation) {
   return "";
 }
 
-inline const std::vector<std::string> on_columns{
-    "band.model=\"columns\"",         "band.column_step=0.004",      "band.thickness_change=conserving",
-    "body.right.material=\"frozen\"", "body.right.temperature=-0.5", "heat.advection_form=conservative",
-    "pressure.frozen=none",           "pressure.frozen_rows=sealed", "pressure.melt_contraction=true"};
+inline const Sets on_columns =
+    "band.model=columns; band.column_step=0.004; band.thickness_change=conserving; body.right.material=frozen; "
+    "body.right.temperature=-0.5; heat.advection_form=conservative; pressure.frozen=none; pressure.frozen_rows=sealed; "
+    "pressure.melt_contraction=true";
+
+// Sums over the last step and over all steps.
+template <int Dim>
+std::vector<double> sums_of(const Simulation<Dim>& simulation) {
+  const terrain::ContactWork<Dim>& contact = simulation.contact();
+  const Budget<Dim>& budget = simulation.budget();
+  std::vector<double> sums{contact.friction_work, contact.loss,          contact.damping,      contact.node_kinetic,
+                           contact.area,          contact.friction_area, contact.shear_force,  budget.friction_heat,
+                           budget.boundary_heat,  budget.advection,      budget.capacity_heat, budget.porosity_heat,
+                           budget.band_rescale,   budget.drained_water,  budget.drained_heat,  budget.vented_water};
+  for (const auto& vector : {contact.force, contact.constraint_impulse}) {
+    sums.insert(sums.end(), vector.begin(), vector.end());
+  }
+  return sums;
+}
+
+// Sums, the bed and band columns.
+template <int Dim>
+void expect_the_same_step(const Simulation<Dim>& found, const Simulation<Dim>& expected) {
+  EXPECT_EQ(found.time(), expected.time());
+  EXPECT_EQ(sums_of(found), sums_of(expected));
+  if (expected.bed() != nullptr) {
+    EXPECT_EQ(found.bed()->state(), expected.bed()->state());
+  }
+  if (expected.band_columns() != nullptr) {
+    EXPECT_EQ(band::numbers_of(*found.band_columns()), band::numbers_of(*expected.band_columns()));
+  }
+}
 
 // Returns how often particles were copied back from the device before they were requested.
 template <int Dim>
-int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
+int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {},
+                        const Threads& threads = {}) {
   Simulation<Dim> on_cpu(parameters, site), on_device(parameters, site);
   int copies = 0;
-  on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
-  on_device.set_sorting_interval(32);
-  for (int k = 0; k < steps; ++k) {
+  on_device.use_device("a GPU", counting_copies<Dim>(threads, copies));
+  on_device.set_sorting_interval(threads.sorting_interval);
+  for (int k = 0; k < steps && !testing::Test::HasFailure(); ++k) {
+    SCOPED_TRACE(fmt::format("step {}", k));
     on_cpu.step(on_cpu.next_step(10.0));
     on_device.step(on_device.next_step(10.0));
-    EXPECT_EQ(on_device.time(), on_cpu.time());
+    expect_the_same_step(on_device, on_cpu);
   }
   const int copies_of_steps = copies;
+  EXPECT_TRUE(on_cpu.bed() == nullptr || on_cpu.particle_count() > on_cpu.particles_at_start());
   EXPECT_EQ(on_device.removed().left, on_cpu.removed().left);
   const auto expected = history_row(on_cpu), found = history_row(on_device);
   EXPECT_EQ(copies, copies_of_steps) << "a row copies particles back";
@@ -147,6 +187,33 @@ int expect_the_same_run(const config::Case& parameters, int steps, const config:
     EXPECT_NEAR(found[k].second, expected[k].second, 1e-12 * largest.at(unit_of(found[k].first))) << found[k].first;
   }
   return copies_of_steps;
+}
+
+inline void expect_the_same_settling(const Sets& more) {
+  const config::Case parameters = sliding_bodies<2>(
+      more + "mechanics.initial_stress=settle; mechanics.settle_time=0.1; mechanics.settle_damping=5");
+  Simulation<2> on_cpu(parameters), on_device(parameters);
+  int copies = 0;
+  on_device.use_device("a GPU", counting_copies<2>({}, copies));
+  EXPECT_TRUE(on_cpu.settle() && on_device.settle());
+  EXPECT_TRUE(on_device.momentum_of_nodes().blocks.empty());
+  EXPECT_EQ(copies, 1);
+  EXPECT_EQ(on_device.time(), 0.0);
+  expect_the_same_particles(on_device, on_cpu);
+  for (int k = 0; k < 20; ++k) {
+    on_cpu.step(0.002);
+    on_device.step(0.002);
+  }
+  expect_the_same_particles(on_device, on_cpu);
+}
+
+// Number of steps until the first particle leaves the domain.
+inline int steps_until_one_leaves(const config::Case& parameters) {
+  Simulation<2> simulation(parameters);
+  while (simulation.removed().left == 0) {
+    simulation.step(0.002);
+  }
+  return static_cast<int>(simulation.step_number());
 }
 
 }  // namespace thawslide::sim

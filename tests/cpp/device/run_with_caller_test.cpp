@@ -33,7 +33,7 @@ template <int Dim>
 void expect_the_same_law(const Sets& more, int steps) {
   const config::Case parameters = sliding_bodies<Dim>(more);
   Simulation<Dim> on_cpu(parameters), on_device(parameters), without_law(parameters);
-  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::shuffled));
+  on_device.use_device("a GPU", emulated_gpu<Dim>({}));
   std::vector<terrain::LoadedNodes> of_cpu, of_device;
   const terrain::StrengthLaw law_of_cpu = recording(of_cpu), law_of_device = recording(of_device);
   for (int k = 0; k < steps; ++k) {
@@ -55,7 +55,7 @@ TEST(DeviceRunWithCaller, CallsItsLaw) {
 }
 void expect_the_same_after_a_failing_law(const Sets& sets) {
   Simulation<2> on_cpu(sliding_bodies<2>(sets)), on_device(sliding_bodies<2>(sets));
-  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
+  on_device.use_device("a GPU", emulated_gpu<2>({ThreadOrder::forward}));
   const terrain::StrengthLaw failing = [](terrain::LoadedNodes& nodes) {
     throw std::runtime_error(fmt::format("at {:g} s", nodes.time));
   };
@@ -82,7 +82,7 @@ template <int Dim>
 void expect_the_same_momentum(int steps) {
   const config::Case parameters = sliding_bodies<Dim>();
   Simulation<Dim> on_cpu(parameters), on_device(parameters);
-  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::shuffled));
+  on_device.use_device("a GPU", emulated_gpu<Dim>({}));
   EXPECT_TRUE(on_device.momentum_of_nodes().records.empty());
   for (int k = 0; k < steps; ++k) {
     on_cpu.step(0.002);

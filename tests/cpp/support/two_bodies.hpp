@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base_cases.hpp"
+#include "config/site.hpp"
+#include "small_terrain.hpp"
 
 namespace thawslide::testing_support {
 
@@ -38,6 +41,16 @@ inline Sets on_dem() {
   const auto file = folder_of_this_test() / "dem.tif";
   std::ofstream{file};
   return "terrain.type=dem; terrain.file=" + file.string();
+}
+
+// Its content: bumps below the bodies, known up to a position along x [m].
+inline config::Site bumpy_site(double known_to = 1e9, double spacing = 2.0) {
+  config::Site site;
+  const int columns = static_cast<int>(120.0 / spacing), rows = static_cast<int>(32.0 / spacing);
+  site.ground = std::make_shared<const Raster>(raster(-10.0, -10.0, spacing, columns, rows, [&](double x, double y) {
+    return x > known_to ? no_data : 0.1 * std::sin(0.7 * x) * std::cos(0.9 * y) - 0.11;
+  }));
+  return site;
 }
 
 // Bed of melted material below two_bodies, weak enough to be entrained.
