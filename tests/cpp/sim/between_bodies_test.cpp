@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "../support/base_cases.hpp"
+#include "../support/body_motion.hpp"
 #include "../support/fields.hpp"
 #include "../support/messages.hpp"
-#include "base/portability.hpp"
 #include "sim/checks/bodies_apart.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
@@ -41,59 +40,29 @@ config::Case two_blocks(double gap, double speed, double other_speed, const Sets
 
 const Sets frictional = "contact.between_bodies=frictional; contact.friction_angle=0.0";
 
-// Motion of one body.
-struct Motion {
-  double mass = 0.0, speed = 0.0, rise = 0.0;  // means along x and upwards [m/s]
-  double first = std::numeric_limits<double>::max(), last = std::numeric_limits<double>::lowest();  // along x [m]
-};
-
-template <int Dim>
-Motion motion_of(const Simulation<Dim>& simulation, int body) {
-  Motion motion;
-  const auto& particles = simulation.particles();
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    if (particles.body(p) == body) {
-      motion.mass += particles.mass(p);
-      motion.speed += particles.mass(p) * particles.velocity(p, 0);
-      motion.rise += particles.mass(p) * particles.velocity(p, Dim - 1);
-      motion.first = std::min(motion.first, particles.position(p, 0));
-      motion.last = std::max(motion.last, particles.position(p, 0));
-    }
-  }
-  motion.speed /= motion.mass;
-  motion.rise /= motion.mass;
-  return motion;
-}
-
-// Gap between the edges of the particles [m].
-template <int Dim>
-double gap_between(const Simulation<Dim>& simulation) {
-  return motion_of(simulation, 1).first - motion_of(simulation, 0).last - 0.5 * cell;
-}
-
 template <int Dim>
 void expect_collision_without_action_at_a_distance() {
   constexpr double speed = 5.0, gap = 1.3;
   Simulation<Dim> simulation(two_blocks<Dim>(gap, speed, 0.0, frictional));
-  const double before = motion_of(simulation, 0).mass * motion_of(simulation, 0).speed;
+  const double before = BodyMotion(simulation, 0).mass * BodyMotion(simulation, 0).velocity[0];
   double smallest_gap = gap;
   bool moved = false;
   while (simulation.time() < 0.45) {
     simulation.step(dt);
-    const Motion left = motion_of(simulation, 0), right = motion_of(simulation, 1);
-    const double now = gap_between(simulation);
+    const BodyMotion left(simulation, 0), right(simulation, 1);
+    const double now = gap_along_x(simulation, 0.5 * cell);
     smallest_gap = std::min(smallest_gap, now);
-    ASSERT_NEAR(left.mass * left.speed + right.mass * right.speed, before, 1e-11 * before);
-    if (!moved && std::abs(right.speed) > 1e-9 * speed) {
+    ASSERT_NEAR(left.mass * left.velocity[0] + right.mass * right.velocity[0], before, 1e-11 * before);
+    if (!moved && std::abs(right.velocity[0]) > 1e-9 * speed) {
       moved = true;
       EXPECT_LT(now, speed * dt * 1.01) << "it moves before the gap is closed";
     }
   }
   EXPECT_TRUE(moved);
   EXPECT_GT(smallest_gap, -0.1 * cell) << "they run into one another";
-  const Motion left = motion_of(simulation, 0), right = motion_of(simulation, 1);
-  EXPECT_GE(right.speed, left.speed - 1e-3 * speed);
-  EXPECT_GT(right.speed, 0.5 * speed);
+  const BodyMotion left(simulation, 0), right(simulation, 1);
+  EXPECT_GE(right.velocity[0], left.velocity[0] - 1e-3 * speed);
+  EXPECT_GT(right.velocity[0], 0.5 * speed);
 }
 
 TEST(BetweenBodies, InteractOnlyAfterTheGapHasClosedInThePlane) { expect_collision_without_action_at_a_distance<2>(); }
@@ -110,10 +79,10 @@ void expect_no_drag_as_they_part(double gap) {
   while (free.time() < 0.5) {
     free.step(dt);
     bonded.step(dt);
-    ASSERT_NEAR(motion_of(free, 0).speed, 0.0, bound);
-    ASSERT_NEAR(motion_of(free, 1).speed, speed, bound);
+    ASSERT_NEAR(BodyMotion(free, 0).velocity[0], 0.0, bound);
+    ASSERT_NEAR(BodyMotion(free, 1).velocity[0], speed, bound);
   }
-  EXPECT_GT(motion_of(bonded, 0).speed, 0.05 * speed) << "one velocity field drags it along";
+  EXPECT_GT(BodyMotion(bonded, 0).velocity[0], 0.05 * speed) << "one velocity field drags it along";
 }
 
 TEST(BetweenBodies, SeparateWithoutDragInThePlane) {
@@ -121,16 +90,6 @@ TEST(BetweenBodies, SeparateWithoutDragInThePlane) {
   expect_no_drag_as_they_part<2>(0.6);
 }
 TEST(BetweenBodies, SeparateWithoutDragInSpace) { expect_no_drag_as_they_part<3>(0.0); }
-
-// Bodies that never meet have bitwise identical motion, whether they share nodes or not.
-TEST(BetweenBodies, DoNotInteractFarApart) {
-  Simulation<2> shared(two_blocks<2>(20.0, -1.0, 1.0)), own(two_blocks<2>(20.0, -1.0, 1.0, frictional));
-  for (int k = 0; k < 200; ++k) {
-    shared.step(dt);
-    own.step(dt);
-  }
-  expect_the_same_state(fields_by_id(shared.particles()), fields_by_id(own.particles()), "after 200 steps");
-}
 
 // Bonded bodies share nodes, for any default.
 TEST(BetweenBodies, ShareNodesIfBonded) {
@@ -141,29 +100,6 @@ TEST(BetweenBodies, ShareNodesIfBonded) {
     one.step(dt);
   }
   expect_the_same_state(state_of(one), state_of(bonded), "after 100 steps");
-}
-
-// The upper block slides on a long lower one, which is fixed on rough ground: friction decelerates it by g tan(phi) and
-// holds it below that angle.
-double slowing(double friction_angle, double speed) {
-  const config::Case parameters =
-      two_blocks<2>(0.0, 0.0, speed,
-                    {"contact.between_bodies=frictional", fmt::format("contact.friction_angle={}", friction_angle),
-                     "body.block.min=[-20.0, 0.0]", "body.block.max=[40.0, 4.0]", "body.right.min=[-10.0, 4.0]",
-                     "body.right.max=[6.0, 8.0]", "basal.friction_angle=60.0"});
-  Simulation<2> simulation(parameters);
-  run_until(simulation, 0.2);
-  const double before = motion_of(simulation, 1).speed;
-  run_until(simulation, 1.2);
-  return before - motion_of(simulation, 1).speed;
-}
-
-TEST(BetweenBodies, FollowCoulombsLaw) {
-  for (const double angle : {10.0, 30.0}) {
-    const double exact = 9.81 * std::tan(angle * pi / 180.0);
-    EXPECT_NEAR(slowing(angle, 9.0), exact, 0.05 * exact) << angle << " degrees";
-  }
-  EXPECT_NEAR(slowing(0.0, 5.0), 0.0, 0.02) << "no friction";
 }
 
 // The residual of the energy budget is the error of time integration, which decreases with the step.
