@@ -25,37 +25,27 @@ TEST(ClockTest, FixedStepsAreCountedWithoutRoundOff) {
   EXPECT_EQ(clock.step_number, 100000);
 }
 
-TEST(ClockTest, AnotherFixedStepIsCountedFromWhereItBegins) {
-  Clock clock;
-  for (int k = 0; k < 3; ++k) {
-    clock.advance(0.1, fixed_steps(0.1));
-  }
-  const double from = clock.time;
-  for (int k = 0; k < 7; ++k) {
-    clock.advance(0.3, fixed_steps(0.3));
-  }
-  EXPECT_EQ(clock.time, from + 7 * 0.3);
-}
-
-TEST(ClockTest, ShorterLastStepIsAdded) {
+TEST(ClockTest, OtherStepsAreAdded) {
   Clock clock;
   clock.advance(0.1, fixed_steps(0.1));
-  clock.advance(0.05, fixed_steps(0.1));
+  clock.advance(0.05, fixed_steps(0.1));  // the last step of a part
   EXPECT_EQ(clock.time, 0.1 + 0.05);
   EXPECT_EQ(clock.last_step, 0.05);
   clock.advance(0.1, fixed_steps(0.1));
-  EXPECT_EQ(clock.time, (0.1 + 0.05) + 0.1);
-}
-
-TEST(ClockTest, AdaptiveStepsAreAdded) {
-  Clock clock;
+  const double from = clock.time;
+  EXPECT_EQ(from, (0.1 + 0.05) + 0.1);
+  for (int k = 0; k < 7; ++k) {
+    clock.advance(0.3, fixed_steps(0.3));
+  }
+  EXPECT_EQ(clock.time, from + 7 * 0.3) << "counted from where they begin";
+  Clock adaptive;
   config::Time times;
   times.stepping = config::Stepping::adaptive;
-  clock.advance(0.1, times);
-  clock.advance(0.1, times);
-  clock.advance(0.1, times);
-  EXPECT_EQ(clock.time, 0.1 + 0.1 + 0.1);
-  EXPECT_EQ(clock.fixed.from_number, 0);
+  for (int k = 0; k < 3; ++k) {
+    adaptive.advance(0.1, times);
+  }
+  EXPECT_EQ(adaptive.time, 0.1 + 0.1 + 0.1);
+  EXPECT_EQ(adaptive.fixed.from_number, 0);
 }
 
 }  // namespace

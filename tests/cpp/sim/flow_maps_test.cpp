@@ -66,29 +66,31 @@ TEST(CellRange, FractionsFollowFromTheBoxAndSumToOne) {
   expect_range(cells_below(2.5, 0.25), 2, {1.0});
   expect_range(cells_below(3.1, 0.5), 2, {0.4, 0.6});
   expect_range(cells_below(4.25, 1.5), 2, {0.25 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.75 / 3.0});
-}
-
-TEST(CellRange, ABoxThatEndsAtABorderDoesNotCrossIt) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
-    expect_range(cells_below(2.5 + off, 0.5), 2, {1.0});
+    expect_range(cells_below(2.5 + off, 0.5), 2, {1.0});  // ends at borders
   }
-}
-
-TEST(CellRange, PartsOutsideTheGridAreAssignedToItsEdge) {
-  expect_range(cells_below(0.2, 0.5), 0, {1.0});
+  expect_range(cells_below(0.2, 0.5), 0, {1.0});  // parts outside are assigned to the edge
   expect_range(cells_below(9.2, 1.0), 8, {0.4, 0.6});
 }
 
+// Two billion cells of maps would take 200 GB.
 TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
   const Simulation<3> simulation(slide_in_space());
   FlowMaps wide = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
-  FlowMaps narrow = maps_of(simulation, {-4.5, -4.5, 0.15, 0.1, 600, 200, ""});
+  FlowMaps fine = maps_of(simulation, {-299.975, -299.975, 0.05, 0.05, 40000, 50000, ""});
   EXPECT_EQ(wide.bytes(), 0U);
   wide.start(simulation.grid(), simulation.particles());
-  narrow.start(simulation.grid(), simulation.particles());
+  fine.start(simulation.grid(), simulation.particles());
   EXPECT_LE(wide.bytes(),
             5U * 16 * 16 * FlowMaps::bytes_of_cell());  // 60 x 20 cells are 4 x 2 tiles, not all of them near the slide
-  EXPECT_GT(narrow.bytes(), 10U * wide.bytes());
+  EXPECT_GT(fine.bytes(), 10U * wide.bytes());
+  int cells = 0;
+  fine.for_cells([&](int, int, const MapCell&) { ++cells; });
+  EXPECT_EQ(cells, 120 * 80);
+  const Raster raster = fine.raster(kind("max_thickness"), MapExtent::slide);
+  EXPECT_EQ(raster.columns, 120);
+  EXPECT_EQ(raster.rows, 80);
+  EXPECT_NEAR(raster.x, 0.025, 1e-9);
 }
 
 TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
@@ -334,20 +336,6 @@ TEST(FlowMaps, BitsDependNeitherOnThreadsNorOnMemoryOrderNorOnAStop) {
       EXPECT_EQ(std::memcmp(again.data(), once.data(), once.size() * sizeof(double)), 0) << threads;
     }
   }
-}
-
-// Two billion cells of maps would take 200 GB.
-TEST(FlowMaps, MemoryFollowsTheSlide) {
-  const Simulation<3> simulation(slide_in_space());
-  FlowMaps maps = maps_of(simulation, {-299.975, -299.975, 0.05, 0.05, 40000, 50000, ""});
-  maps.start(simulation.grid(), simulation.particles());
-  int cells = 0;
-  maps.for_cells([&](int, int, const MapCell&) { ++cells; });
-  EXPECT_EQ(cells, 120 * 80);
-  const Raster raster = maps.raster(kind("max_thickness"), MapExtent::slide);
-  EXPECT_EQ(raster.columns, 120);
-  EXPECT_EQ(raster.rows, 80);
-  EXPECT_NEAR(raster.x, 0.025, 1e-9);
 }
 
 // The stored ground data of the grid follow the slide.

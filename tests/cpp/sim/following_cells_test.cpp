@@ -88,19 +88,6 @@ TEST(FollowingCells, EntrainABedWithClosedBudgetsInSpace) {
   expect_closed_budgets_with_a_bed<3>(make, 30);
 }
 
-// Inclined ends are cut into columns, whose particles are then scaled.
-TEST(FollowingCells, BodiesHaveTheirExactVolume) {
-  const Incline plane{25.0};
-  const Simulation<2> block(
-      body_on_plane(plane, 10.0, {plane.place(-83, 0), plane.place(71, 0), plane.place(71, 33), plane.place(-83, 33)}));
-  const auto& particles = block.particles();
-  double area = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    area += particles.volume(p);
-  }
-  EXPECT_NEAR(area, 154.0 * 33.0, 1e-9 * area);
-}
-
 // A crest of 45 degrees is 2.5 m lower in the columns. A rock and the ice on it are lowered together: they neither
 // overlap nor leave a gap, and keep their volumes.
 TEST(FollowingCells, StackedBodiesStandOnTheGroundOfTheCells) {

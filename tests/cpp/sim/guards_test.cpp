@@ -71,17 +71,15 @@ TEST(EnergyGuard, AStepThatIsTooLongIsReportedWhileAllValuesAreFinite) {
   }
 }
 
-TEST(EnergyGuard, CanBeDisabled) {
-  Simulation<2> simulation(paper_case(block, {"guards.energy_growth=inf"}));
-  const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
+TEST(EnergyGuard, CanBeDisabledAndNamesTheSafetyFactorOfAdaptiveSteps) {
+  const auto failure_with = [](const Sets& sets) {
+    Simulation<2> simulation(paper_case(block, sets));
+    return failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
+  };
+  const std::string failure = failure_with("guards.energy_growth=inf");
   EXPECT_EQ(failure.find("cause, "), std::string::npos) << failure;
   expect_in(failure, "the run failed at t = ");
-}
-
-TEST(EnergyGuard, NamesTheSafetyFactorOfAdaptiveSteps) {
-  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive"}));
-  const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
-  expect_in(failure, "Try half of time.safety");
+  expect_in(failure_with("time.stepping=adaptive"), "Try half of time.safety");
 }
 
 TEST(VolumeGuard, EndsTheRunOutsideTheRange) {
@@ -110,15 +108,11 @@ TEST(VolumeGuard, RemovesAndCounts) {
   EXPECT_EQ(value_of(row, "left_mass_kg"), mass);
   EXPECT_NEAR(value_of(row, "mass_residual_kg"), 0.0, 1e-12 * value_of(row, "mass_kg"));
   EXPECT_NEAR(value_of(row, "momentum_residual_x_N_s"), 0.0, 1e-9 * value_of(row, "momentum_x_N_s"));
-}
-
-TEST(FiniteGuard, RemovesTheNonFiniteParticle) {
-  Simulation<2> simulation(paper_case(block, {"guards.not_finite=remove"}));
-  const double mass = simulation.particles().mass(index_of(simulation, 17));
-  simulation.particles().temperature(index_of(simulation, 17)) = no_number;  // without an effect on motion in this case
-  EXPECT_EQ(failure_of(simulation, 0.005, 20), "no error");
-  EXPECT_EQ(text_of(simulation.removed()), "1 particle: 1 not finite, 0 by their volume");
-  EXPECT_EQ(value_of(history_row(simulation), "removed_mass_kg"), mass);
+  Simulation<2> other(paper_case(block, {"guards.not_finite=remove"}));
+  other.particles().temperature(index_of(other, 17)) = no_number;  // without an effect on motion in this case
+  EXPECT_EQ(failure_of(other, 0.005, 20), "no error");
+  EXPECT_EQ(text_of(other.removed()), "1 particle: 1 not finite, 0 by their volume");
+  EXPECT_EQ(value_of(history_row(other), "removed_mass_kg"), mass);
 }
 
 TEST(FiniteGuard, KeepsTheBudgetsOfTheRemainingParticles) {
@@ -161,20 +155,17 @@ TEST(StepGuard, NamesTheLimitAndTheParticle) {
                "\"remove\" and a guards.largest_volume\\.");
 }
 
-TEST(StepGuard, NamesViscosity) {
-  Simulation<2> simulation(paper_case(block, "time.stepping=adaptive; material.rock.viscosity_time=0.1"));
-  simulation.particles().volume(index_of(simulation, 17)) *= 1e4;
-  const std::string failure = failure_of_next(simulation);
-  expect_in(failure, "It is set by the viscosity of material 'rock' (viscosity_time 0.1 s");
-  expect_in(failure, "Try a smaller viscosity_number or viscosity_time of the material");
-}
-
-TEST(StepGuard, NamesAParticleThatIsTooFast) {
-  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive"}));
-  simulation.particles().velocity(index_of(simulation, 17), 1) = 1e6;
-  const std::string failure = failure_of_next(simulation);
-  expect_in(failure, "It is set by the particle speed of 1,000,000 m/s, of particle 17 of body 'block' at (");
-  expect_in(failure, "try half of time.safety");
+TEST(StepGuard, NamesViscosityAndAParticleThatIsTooFast) {
+  Simulation<2> viscous(paper_case(block, "time.stepping=adaptive; material.rock.viscosity_time=0.1"));
+  viscous.particles().volume(index_of(viscous, 17)) *= 1e4;
+  const std::string of_viscosity = failure_of_next(viscous);
+  expect_in(of_viscosity, "It is set by the viscosity of material 'rock' (viscosity_time 0.1 s");
+  expect_in(of_viscosity, "Try a smaller viscosity_number or viscosity_time of the material");
+  Simulation<2> fast(paper_case(block, {"time.stepping=adaptive"}));
+  fast.particles().velocity(index_of(fast, 17), 1) = 1e6;
+  const std::string of_speed = failure_of_next(fast);
+  expect_in(of_speed, "It is set by the particle speed of 1,000,000 m/s, of particle 17 of body 'block' at (");
+  expect_in(of_speed, "try half of time.safety");
 }
 
 TEST(StepGuard, CountsTheStepsToTheEnd) {

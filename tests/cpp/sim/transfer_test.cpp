@@ -173,17 +173,5 @@ TEST(Transfer, MomentumIsConservedAndTheEnergyBudgetCloses) {
   });
 }
 
-TEST(Transfer, BlendWithoutPicIsBitwiseIdenticalToFlip) {
-  Simulation<2> flip(block_with("ugimp", {}));
-  Simulation<2> blend(block_with("ugimp", "mechanics.transfer=blend; mechanics.pic_fraction=0"));
-  for (Simulation<2>* simulation : {&flip, &blend}) {
-    stir(*simulation, 0.5, 0.5, 1e5);
-    run_until(*simulation, 0.1);
-  }
-  for (std::size_t p = 0; p < flip.particles().size(); ++p) {
-    EXPECT_EQ(flip.particles().velocity(p, 0), blend.particles().velocity(p, 0));
-  }
-}
-
 }  // namespace
 }  // namespace thawslide::sim
