@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -51,18 +52,9 @@ TEST(AddUp, IsBitwiseIdenticalToTheCpu) {
     for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::shuffled}) {
       EXPECT_EQ(on_device(parts, order), on_cpu(parts)) << count;
     }
+    EXPECT_TRUE(count < 5 * run || on_cpu(parts) != std::accumulate(parts.begin(), parts.end(), 0.0))
+        << "the order of these parts has an effect";
   }
-}
-
-// The previous test is sensitive to the order.
-TEST(AddUp, DependsOnItsOrder) {
-  const std::vector<double> parts = parts_of(5 * parts_of_a_run);
-  double one_after_the_other = 0.0;
-  for (const double part : parts) {
-    one_after_the_other += part;
-  }
-  EXPECT_NE(on_cpu(parts), one_after_the_other);
-  EXPECT_NEAR(on_cpu(parts), one_after_the_other, 1e-6);
 }
 
 }  // namespace
