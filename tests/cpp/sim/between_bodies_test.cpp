@@ -23,9 +23,7 @@ constexpr double dt = 0.001;
 // Two blocks on level ground without friction, of the same elastic material. In 3D as wide as they are high.
 template <int Dim>
 config::Case two_blocks(double gap, double speed, double other_speed, const Sets& sets = {}) {
-  const auto at = [](double x, double y, double z) {
-    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
-  };
+  const auto at = place_in<Dim>;
   const Sets bodies = fmt::format(
       "case.dimension={}; time.step={}; grid.cell={}; grid.min={}; grid.max={}; body.block.min={}; body.block.max={}; "
       "body.block.velocity={}; body.right.min={}; body.right.max={}; body.right.velocity={}",

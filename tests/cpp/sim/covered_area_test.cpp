@@ -19,6 +19,7 @@ namespace thawslide::sim {
 namespace {
 
 constexpr double least = 0.1;  // m
+const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
 
 // A raster of cells of 10 m around the origin, with the mean of a thickness over each cell.
 Raster cells_of(int half, const std::function<double(double, double)>& thickness) {
@@ -76,14 +77,14 @@ std::vector<Rectangle> rectangles() {
 }
 
 // Area of a release alone, or with a box.
-DrawnArea drawn_area(const config::Release& release, const MapGrid& grid, double taper = 0.0,
+DrawnArea drawn_area(const config::Release& release, const MapGrid& cells = grid, double taper = 0.0,
                      const std::map<std::string, config::Body>& others = {}) {
   config::Case parameters;
   parameters.maps.arrival_thickness = least;
   parameters.bodies = others;
   parameters.bodies["slide"].shape = config::BodyShape::release;
   parameters.bodies["slide"].taper = taper;
-  return {parameters, {{"slide", release}}, grid};
+  return {parameters, {{"slide", release}}, cells};
 }
 
 double mask_area(const CoveredCells& cells) {
@@ -115,7 +116,6 @@ TEST(CoveredArea, OfWallsIsExactInAnyDirection) {
 }
 
 TEST(CoveredArea, OfAReleaseAtRestIsThatOfItsOutline) {
-  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   for (const Rectangle& rectangle : rectangles()) {
     // The points of the DEM interpolate the thickness: a ramp, two cells wide, along the outline.
     const Raster points = cells_of(14, [&](double x, double y) { return rectangle.contains(x, y) ? 20.0 : 0.0; });
@@ -134,7 +134,7 @@ TEST(CoveredArea, OfAReleaseAtRestIsThatOfItsOutline) {
     config::Release release;
     release.thickness = points;
     release.outlines = {rectangle.outline()};
-    const CoveredCells covered = covered_cells(h, h, drawn_area(release, grid), 0, 0, least);
+    const CoveredCells covered = covered_cells(h, h, drawn_area(release), 0, 0, least);
     EXPECT_NEAR(covered.area(), rectangle.area(), 0.05 * rectangle.area())
         << rectangle.degrees << " degrees, off " << rectangle.x;
     EXPECT_NEAR(mask_area(covered), covered.area(), 1e-9 * rectangle.area());
@@ -142,7 +142,7 @@ TEST(CoveredArea, OfAReleaseAtRestIsThatOfItsOutline) {
     // It settles by less than a tenth.
     Raster settled = h;
     std::for_each(settled.values.begin(), settled.values.end(), [](double& value) { value *= 1.05; });
-    EXPECT_EQ(covered_cells(settled, h, drawn_area(release, grid), 0, 0, least).area(), covered.area());
+    EXPECT_EQ(covered_cells(settled, h, drawn_area(release), 0, 0, least).area(), covered.area());
   }
 }
 
@@ -151,17 +151,13 @@ TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
   config::Release release;
   release.thickness = cells_of(14, [&](double x, double y) { return rectangle.contains(x, y) ? 20.0 : 0.0; });
   for (const double cell : {10.0, 5.0, 20.0}) {
-    const MapGrid grid{-145.0 + 0.5 * cell,
-                       -145.0 + 0.5 * cell,
-                       cell,
-                       cell,
-                       static_cast<int>(280.0 / cell),
-                       static_cast<int>(280.0 / cell),
-                       ""};
-    const DrawnArea area = drawn_area(release, grid);
+    const int count = static_cast<int>(280.0 / cell);
+    const double first = -145.0 + 0.5 * cell;
+    const MapGrid of_cell{first, first, cell, cell, count, count, ""};
+    const DrawnArea area = drawn_area(release, of_cell);
     double parts = 0.0;
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
+    for (int row = 0; row < count; ++row) {
+      for (int column = 0; column < count; ++column) {
         parts += std::popcount(area.parts(column, row));
       }
     }
@@ -171,7 +167,6 @@ TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
 
 // Next to the release, where the DEM turns its outline into a ramp, and far from it.
 TEST(CoveredArea, OfABoxNextToAReleaseIsExact) {
-  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   const Rectangle rectangle{80.0, 80.0, 0.0, -45.0, 5.0};
   for (const double x : {35.0, 55.0}) {
     const Rectangle box{80.0, 60.0, 0.0, x, 5.0};
@@ -187,12 +182,11 @@ TEST(CoveredArea, OfABoxNextToAReleaseIsExact) {
     body.max = {x + 40.0, 35.0, 20.0};
     const DrawnArea area = drawn_area(release, grid, 0.0, {{"box", body}});
     EXPECT_NEAR(covered_cells(h, h, area, 0, 0, least).area(), rectangle.area() + box.area(), 1e-9) << x;
-    EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid), 0, 0, least).area(), rectangle.area(), 1e-9);
+    EXPECT_NEAR(covered_cells(h, h, drawn_area(release), 0, 0, least).area(), rectangle.area(), 1e-9);
   }
 }
 
 TEST(CoveredArea, OfATaperedReleaseExtendsToTheMinimumThickness) {
-  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   const Rectangle rectangle{80.0, 80.0, 0.0, 5.0, 5.0};
   constexpr double taper = 40.0;  // m, half of it beyond the outline; the ramp is that of gis::tapered
   const auto ramp = [](double from_middle) {
@@ -215,14 +209,13 @@ TEST(CoveredArea, OfATaperedReleaseExtendsToTheMinimumThickness) {
 
 TEST(CoveredArea, GrowsByTheReachedArea) {
   const Rectangle rectangle{80.0, 80.0, 0.0, 5.0, 5.0}, reached{200.0, 80.0, 0.0, 5.0, 5.0};
-  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   const auto slab = [&](const Rectangle& place) {
     return cells_of(14, [&](double x, double y) { return place.contains(x, y) ? 10.0 : 0.0; });
   };
   config::Release release;
   release.thickness = slab(rectangle);
   release.outlines = {rectangle.outline()};
-  const DrawnArea area = drawn_area(release, grid);
+  const DrawnArea area = drawn_area(release);
   EXPECT_NEAR(covered_cells(slab(reached), slab(rectangle), area, 0, 0, least).area(), reached.area(), 1e-9);
   EXPECT_EQ(covered_cells(slab(rectangle).filled(0.0), slab(rectangle), area, 0, 0, least).area(), 0.0)
       << "the slide has left";

@@ -25,9 +25,7 @@ constexpr double release_time = 0.5;
 // Two elastic blocks on a frictional incline that falls towards +x, the second one downhill of the first.
 template <int Dim>
 config::Case two_blocks(double gap, const Sets& sets = {}) {
-  const auto at = [](double x, double y, double z) {
-    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
-  };
+  const auto at = place_in<Dim>;
   return base_case(
       "block",
       Sets(fmt::format("case.dimension={}; case.gravity_tilt={}; time.end=10; time.step={}; grid.cell=2; "

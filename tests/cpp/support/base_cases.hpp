@@ -14,6 +14,8 @@
 //   box         small 3D slide: box of warm ice on an incline
 #pragma once
 
+#include <fmt/format.h>
+
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -59,6 +61,12 @@ inline config::Case base_case(const std::string& name, const Sets& sets = {}) {
 }
 inline config::Case published_case(const std::string& name, const Sets& sets = {}) {
   return paper_case(Variant{name, sets});
+}
+
+// Place of a case in 2D or 3D, as TOML: x along the slope, y across it, z upwards [m].
+template <int Dim>
+std::string place_in(double x, double y, double z) {
+  return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
 }
 
 }  // namespace thawslide::testing_support
