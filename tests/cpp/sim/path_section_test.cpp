@@ -101,7 +101,7 @@ void expect_same_motion(const std::vector<HistoryRow>& rows, const std::vector<H
     ASSERT_EQ(rows[k].size(), expected[k].size());
     for (std::size_t column = 0; column < rows[k].size(); ++column) {
       if (rows[k][column].first == "drop_height_m") {
-        continue;  // a release has a higher top than its particles: HeightBeginsAtTheTopOfTheRelease
+        continue;  // a release has a higher top than its particles: tests/cli/block_test.py
       }
       const double value = expected[k][column].second;
       EXPECT_NEAR(rows[k][column].second, value, tolerance * std::abs(value) + 1e-9)
@@ -132,19 +132,6 @@ TEST(PathSection, ObliquePointsGiveTheMotionOfThePlane) {
   const auto rows = run_along_path(case_on_dem(flat, 37.0, 0.0, 2.5)), expected = run_block(flat);
   for (const char* column : {"velocity_m_s", "displacement_m", "front_position_m", "normal_pressure_Pa"}) {
     EXPECT_NEAR(value_of(rows.back(), column) / value_of(expected.back(), column), 1.0, 0.02) << column;
-  }
-}
-
-// On the points of the DEM next to the upper end of the release, whose corners lie half a cell higher.
-TEST(PathSection, HeightBeginsAtTheTopOfTheRelease) {
-  const double fall = std::tan(slope * degree), first = 102.5;
-  for (const double azimuth : {0.0, 90.0, 180.0}) {
-    SCOPED_TRACE(fmt::format("azimuth {}", azimuth));
-    for (const HistoryRow& row : run_along_path(case_on_dem(flat_case(slope), azimuth, 0.0))) {
-      const double front = value_of(row, "front_position_m");
-      EXPECT_NEAR(value_of(row, "travel_distance_m"), front - 100.0, 1e-6);
-      EXPECT_NEAR(value_of(row, "drop_height_m"), thickness + fall * (front - first), 1e-6);
-    }
   }
 }
 

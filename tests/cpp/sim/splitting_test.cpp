@@ -9,7 +9,6 @@
 #include <set>
 
 #include "../support/following_slides.hpp"
-#include "../support/messages.hpp"
 #include "../support/reproducible_runs.hpp"
 
 namespace thawslide::sim {
@@ -316,20 +315,6 @@ TEST(Splitting, ResultsAreReproducibleWithABed) {
   expect_reproducible_splitting<2>(
       "bed.law=strength; bed.depth=2; bed.strength=100; bed.depth_per_slip=0.2; bed.porosity=0.9; "
       "bed.temperature=-0.5; bed.material=rock; body.block.velocity=[11.5,-6.6]");
-}
-
-TEST(Splitting, StopsAtItsLimitWithAWarning) {
-  const auto simulation = slide_that_splits<2>("mechanics.split_limit=1.05");
-  const auto at_start = static_cast<double>(simulation->particles_at_start());
-  EXPECT_EQ(simulation->split_warning(), "");
-  for (int k = 0; k < 3 * steps_to_split; ++k) {
-    simulation->step(simulation->next_step(100.0));
-  }
-  EXPECT_EQ(simulation->particle_count(), static_cast<std::size_t>(1.05 * at_start));
-  const std::string warning = simulation->split_warning();
-  expect_in(warning, fmt::format("splitting has made {} particles of {}, and mechanics.split_limit is 1.05",
-                                 simulation->particle_count(), simulation->particles_at_start()));
-  expect_in(warning, "Set a larger mechanics.split_limit");
 }
 
 // A held body does not deform; the other one is stretched.
