@@ -1,4 +1,4 @@
-"""Device code of physics and of the step: compiled if nvcc is available, within limits of registers."""
+"""Device code of the step: compiled if nvcc is available, within limits of registers."""
 
 import os
 import re
@@ -9,44 +9,13 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PHYSICS = Path(__file__).with_name("physics_kernels.cu")
 GPU = ROOT / "src" / "device" / "gpu.cu"
-BASAL_LAWS = ROOT / "src" / "physics" / "basal" / "laws.hpp"
 OLDEST = 12  # version of nvcc: the first with C++20
-LIMIT = 1200.0  # s; the physics alone needs about 10, the step on a GPU 150
+LIMIT = 1200.0  # s; the step on a GPU needs 150
 
-# Maximum registers of a kernel: those of nvcc 13.0, and about a tenth more for other versions. A multiprocessor of
-# sm_90 has 65,536, so that 80 leave it 24 groups of 32 threads, 96 leave it 20.
-REGISTERS_OF_PHYSICS = {
-    "strain_and_stress<LinearElastic, 2>": 52,  # 46
-    "strain_and_stress<LinearElastic, 3>": 80,  # 72
-    "strain_and_stress<MohrCoulomb<false>, 2>": 68,  # 60
-    "strain_and_stress<MohrCoulomb<false>, 3>": 96,  # 84
-    "strain_and_stress<MohrCoulomb<true>, 2>": 106,  # 96
-    "strain_and_stress<MohrCoulomb<true>, 3>": 106,  # 96
-    "yield_and_gap<2>": 50,  # 44
-    "yield_and_gap<3>": 80,  # 72
-    "rigid_motion<2>": 32,  # 24
-    "rigid_motion<3>": 40,  # 32
-    "nearest_motion<2>": 48,  # 40
-    "nearest_motion<3>": 104,  # 92
-    "heat<PowerLawCurve>": 60,  # 54
-    "heat<LinearCurve>": 56,  # 50
-    "mixture": 40,  # 32
-    "pore_water": 44,  # 38
-    "water_balance": 50,  # 44
-    "basal_contact": 30,  # 24
-    "body_contact": 40,  # 34
-    "entrainment": 36,  # 30
-    "band_column<PowerLawCurve>": 146,  # 92; the numbers of the cells are in local memory
-    "band_column<LinearCurve>": 146,  # 134
-    "join_columns<PowerLawCurve>": 184,  # 168
-    "join_columns<LinearCurve>": 184,  # 168
-    "start_columns<PowerLawCurve>": 136,  # 120
-}
-REGISTERS_OF_BASAL_LAW = 36  # 30
-
-# Launched passes over particles, in 2D and in 3D: of each kernel, the variant with the most registers.
+# Maximum registers of launched passes over particles in 2D and in 3D, of the variant with the most: those of nvcc 13.0,
+# and about a tenth more for other versions. A multiprocessor of sm_90 has 65,536, so that 80 leave it 24 groups of 32
+# threads, 96 leave it 20.
 REGISTERS_OF_STEP = {
     "AddAffineMomentum": (88, 112),  # 80, 100
     "AddAverages": (52, 64),  # 46, 58
@@ -128,17 +97,6 @@ def expect_within(limits: dict[str, int], used: dict[str, tuple[int, int]]) -> N
     assert {kernel: number for kernel, (number, _) in used.items() if number > limits[kernel]} == {}
 
 
-def basal_laws() -> list[str]:
-    listed = re.findall(r"using (Friction|Cohesion)Law = std::variant<(.*?)>;", BASAL_LAWS.read_text(), flags=re.DOTALL)
-    assert len(listed) == 2
-    return [f"{kind.lower()}_law<basal::{law}>" for kind, laws in listed for law in re.findall(r"\w+", laws)]
-
-
-def test_kernels_of_physics_compile_without_spills_within_their_registers(tmp_path: Path) -> None:
-    limits = REGISTERS_OF_PHYSICS | dict.fromkeys(basal_laws(), REGISTERS_OF_BASAL_LAW)
-    expect_within(limits, resources(compiled(find_nvcc(), PHYSICS, tmp_path)))
-
-
 def test_spills_and_unmarked_functions_are_found(tmp_path: Path) -> None:
     nvcc = find_nvcc()
     greedy = tmp_path / "greedy.cu"
@@ -159,17 +117,6 @@ __global__ void unmarked(double* numbers) { numbers[0] = twice(numbers[0]); }
 """)
     with pytest.raises(AssertionError, match="twice"):
         compiled(nvcc, unmarked, tmp_path)
-
-
-def test_every_function_marked_for_devices_is_called_by_a_kernel() -> None:
-    headers = "".join(path.read_text() for path in sorted((ROOT / "src" / "physics").rglob("*.hpp")))
-    headers = re.sub(r"//.*", "", headers)
-    marked = re.findall(r"THAWSLIDE_HD [^;{}(]*?\b(\w+)\(", headers)
-    assert len(marked) == headers.count("THAWSLIDE_HD") > 60
-    code = headers + re.sub(r"//.*", "", PHYSICS.read_text())
-    for name in sorted(set(marked)):
-        called = len(re.findall(rf"\b{name}(?:<[^;()]*>)?(?: \w+)?\(", code)) - marked.count(name)
-        assert called > 0, f"neither {PHYSICS.name} nor another function of src/physics calls {name}"
 
 
 def test_emulated_gpu_steps_are_bitwise_identical_to_cpu_steps() -> None:
