@@ -97,7 +97,7 @@ template <class Read>
 std::string error_of(const Read& read) {
   std::string message = "no error";
   try {
-    read();
+    static_cast<void>(read());
   } catch (const UserError& error) {
     message = error.what();
   }

@@ -12,40 +12,23 @@ namespace {
 
 using namespace site_case;
 
-// Random thickness from 0 to 20 m at points with any spacing, in 30 m x 24 m, surrounded by zeros.
-Raster random_raster(std::mt19937& random, double cell_x, double cell_y) {
-  std::uniform_real_distribution<double> thickness(0.0, 20.0), place(0.0, 10.0);
-  Raster raster =
-      raster_of([&](double, double) { return thickness(random); }, 400000.0 + place(random), 300000.0 + place(random),
-                cell_x, static_cast<int>(30.0 / cell_x), static_cast<int>(24.0 / cell_y));
-  raster.cell_y = cell_y;
-  return raster;
-}
-
-Raster points_about(const Raster& raster, double cell, double shift) {
-  return raster_of([](double, double) { return 0.0; }, raster.x - 5.0 * cell + shift, raster.y - 5.0 * cell - shift,
-                   cell, 10 + static_cast<int>(40.0 / cell), 10 + static_cast<int>(40.0 / cell));
-}
-
+// Random thickness at points with any spacing, in 30 m x 24 m, on points of any offset.
 TEST(AveragingTest, VolumesAreExactForAnySpacingAndOffsetOfPoints) {
   std::mt19937 random(7);
+  std::uniform_real_distribution<double> thickness(0.0, 20.0), place(0.0, 10.0);
   for (const auto& [cell_x, cell_y] : {std::pair(1.0, 1.0), {0.3, 0.7}, {2.3, 0.9}, {2.9, 2.9}}) {
     for (const double shift : {0.0, 0.37, 1.5, 2.9}) {
-      const Raster raster = random_raster(random, cell_x, cell_y);
-      const Raster layout = points_about(raster, 3.0, shift);
+      Raster raster =
+          raster_of([&](double, double) { return thickness(random); }, 400000.0 + place(random),
+                    300000.0 + place(random), cell_x, static_cast<int>(30.0 / cell_x), static_cast<int>(24.0 / cell_y));
+      raster.cell_y = cell_y;
+      const Raster layout =
+          raster_of([](double, double) { return 0.0; }, raster.x - 15.0 + shift, raster.y - 15.0 - shift, 3.0, 23, 23);
       ASSERT_TRUE(is_finer(raster, layout));
       EXPECT_NEAR(volume_of(averaged(raster, layout, Missing::zero)), volume_of(raster), 1e-9 * volume_of(raster))
           << cell_x << " " << cell_y << " " << shift;
     }
   }
-}
-
-TEST(AveragingTest, MeansAreOverTheCellsWithin) {
-  const Raster ribs = raster_of([](double x, double) { return x == 2.0 ? 20.0 : 4.0; }, 0.0, 0.0, 1.0, 10, 10);
-  const Raster layout = raster_of([](double, double) { return 0.0; }, 2.0, 2.0, 5.0, 2, 2);
-  const Raster means = averaged(ribs, layout, Missing::unknown);
-  EXPECT_NEAR(means.at(0, 0), (20.0 + 4.0 * 4.0) / 5.0, 1e-12);
-  EXPECT_NEAR(means.at(1, 1), 4.0, 1e-12);
 }
 
 TEST(AveragingTest, PointsWithoutDataAreIgnoredOrZero) {
@@ -88,57 +71,48 @@ Raster ribs(const std::string& crs, double x, double y, double cell) {
 
 constexpr double volume_of_ribs = 200.0 * 200.0 * 20.0 / 5.0;
 
+// Outlines along cells of the ground or across them, and the western half.
 TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRaster) {
   for (const double shift : {0.0, 0.4, 2.5}) {
     for (const double cell : {1.0, 0.5}) {
       const Raster raster = ribs("EPSG:31287", west + 300.0 + shift, south + 300.0 + shift, cell);
       ASSERT_NEAR(volume_of(raster), volume_of_ribs, 1e-6);
-      config::Case parameters = plain_case(ground());
-      parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
-      EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 1e-6);
-      // Within an outline along cells of the ground or across them.
-      parameters.bodies.at("rock").release =
-          geojson("outline.geojson", {{"", box_at(320 + shift, 320 + shift, 520 + shift, 520 + shift)}});
-      EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 1e-4);
-      // Western half.
-      parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 420 + shift, 700)}});
-      EXPECT_NEAR(volume_of(release_of(parameters).thickness), 0.5 * volume_of_ribs, 1e-4);
+      config::Case parameters = case_with_raster(raster);
+      EXPECT_NEAR(release_volume(parameters), volume_of_ribs, 1e-6);
+      const auto within = [&](const std::string& box) {
+        parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box}});
+        return release_volume(parameters);
+      };
+      EXPECT_NEAR(within(box_at(320 + shift, 320 + shift, 520 + shift, 520 + shift)), volume_of_ribs, 1e-4);
+      EXPECT_NEAR(within(box_at(250, 250, 420 + shift, 700)), 0.5 * volume_of_ribs, 1e-4);
     }
   }
 }
 
-// Lengths in the other system differ by up to 4 in 10,000, areas by twice as much.
+// Lengths in the other system differ by up to 4 in 10,000, areas by twice as much. Positions in the nearly equal system
+// differ by less than a metre; lengths are equal.
 TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfAnotherSystem) {
   std::vector<double> x{west + 300.0}, y{south + 300.0};
   ASSERT_TRUE(Reprojection(reference_system_named("EPSG:31287"), reference_system_named("EPSG:32633")).apply(x, y));
-  const Raster raster = ribs("EPSG:32633", x[0], y[0], 1.0);
-  config::Case parameters = plain_case(ground());
-  parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
-  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 5e-3 * volume_of_ribs);
+  config::Case parameters = case_with_raster(ribs("EPSG:32633", x[0], y[0], 1.0));
+  EXPECT_NEAR(release_volume(parameters), volume_of_ribs, 5e-3 * volume_of_ribs);
   parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 600, 600)}});
-  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 5e-3 * volume_of_ribs);
-}
-
-// Positions in the two systems differ by less than a metre; lengths are equal.
-TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfNearlyTheSameSystem) {
-  const Raster raster = ribs("EPSG:25833", west + 300.0, south + 300.0, 1.0);
-  config::Case parameters = plain_case(ground("EPSG:32633"));
-  parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
-  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 5e-3 * volume_of_ribs);
+  EXPECT_NEAR(release_volume(parameters), volume_of_ribs, 5e-3 * volume_of_ribs);
+  const Raster nearly_equal = ribs("EPSG:25833", west + 300.0, south + 300.0, 1.0);
+  EXPECT_NEAR(release_volume(case_with_raster(nearly_equal, ground("EPSG:32633"))), volume_of_ribs,
+              5e-3 * volume_of_ribs);
 }
 
 TEST(AveragingTest, SurfacesFinerThanTheGroundKeepTheVolumeAboveIt) {
-  const Raster thickness = ribs("EPSG:31287", west + 300.0, south + 300.0, 1.0);
-  Raster surface = thickness;
+  Raster surface = ribs("EPSG:31287", west + 300.0, south + 300.0, 1.0);
   for_points(surface, [&](int column, int row) {
     surface.values[surface.index(column, row)] += plane(surface.x_of(column), surface.y_of(row));
   });
   config::Case parameters = plain_case(ground());
-  parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
-  parameters.bodies.at("rock").thickness.from = config::MapValue::From::surface;
-  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 1e-6 * volume_of_ribs);
+  parameters.bodies["rock"] = surface_body(geotiff("before.tif", surface));
+  EXPECT_NEAR(release_volume(parameters), volume_of_ribs, 1e-6 * volume_of_ribs);
   parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(322, 322, 518, 518)}});
-  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs * 196.0 * 196.0 / 4e4, 0.01 * volume_of_ribs);
+  EXPECT_NEAR(release_volume(parameters), volume_of_ribs * 196.0 * 196.0 / 4e4, 0.01 * volume_of_ribs);
 }
 
 // A surface known within the release only, at points of any spacing and offset relative to the ground. Between points
@@ -149,21 +123,19 @@ TEST(AveragingTest, SurfacesWithoutDataAroundTheReleaseKeepItsVolume) {
       const auto inside = static_cast<int>(198.0 / cell);
       for (const int margin : {0, 6}) {
         const double first = 300.0 + shift - margin * cell;
-        Raster surface = raster_of([](double x, double y) { return plane(x, y) + 10.0; }, west + first, south + first,
-                                   cell, inside + 2 * margin, inside + 2 * margin, "EPSG:31287");
-        for_points(surface, [&](int column, int row) {
-          if (std::min(row, column) < margin || std::max(row, column) >= margin + inside) {
-            surface.values[surface.index(column, row)] = missing;
-          }
-        });
+        Raster surface = raster_of([](double, double) { return missing; }, west + first, south + first, cell,
+                                   inside + 2 * margin, inside + 2 * margin);
+        for (int k = 0; k < inside * inside; ++k) {
+          const int column = margin + k % inside, row = margin + k / inside;
+          surface.values[surface.index(column, row)] = plane(surface.x_of(column), surface.y_of(row)) + 10.0;
+        }
         config::Case parameters = plain_case(ground());
-        parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
-        parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+        parameters.bodies["rock"] = surface_body(geotiff("before.tif", surface));
         const double volume = 10.0 * std::pow(inside * cell, 2);
         // A tolerance, as for noise, removes nothing if the surface is known in a part of a cell.
         for (const double tolerance : {0.01, cell < 5.0 ? 4.0 : 0.01}) {
           parameters.bodies["rock"].surface_tolerance = tolerance;
-          EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume, (cell <= 5.0 ? 1e-6 : 0.01) * volume)
+          EXPECT_NEAR(release_volume(parameters), volume, (cell <= 5.0 ? 1e-6 : 0.01) * volume)
               << cell << ", " << shift << ", " << margin << ", " << tolerance;
         }
       }
@@ -175,10 +147,9 @@ TEST(AveragingTest, SurfacesWithoutDataAroundTheReleaseKeepItsVolume) {
 TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
   config::Case parameters = case_with_release({{"", box_at(302, 302, 398, 398)}});
   InitialField& temperature = parameters.bodies.at("rock").temperature;
-  temperature.over = InitialField::Over::raster;
   Raster stripes = raster_of([](double x, double) { return std::fmod(x - west, 2.0) < 1.0 ? -4.0 : -8.0; },
                              west + 250.5, south + 250.5, 1.0, 200, 200);
-  temperature.source = geotiff("temperature.tif", stripes);
+  temperature = raster_field(geotiff("temperature.tif", stripes));
   const Raster field = release_of(parameters).fields.at("temperature");
   for (int row = 3; row + 3 < field.rows; ++row) {
     for (int column = 3; column + 3 < field.columns; ++column) {
@@ -186,15 +157,14 @@ TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
     }
   }
   stripes.values[stripes.index(100, 100)] = -5000.0;
-  temperature.source = geotiff("other.tif", stripes);
+  temperature = raster_field(geotiff("other.tif", stripes));
   expect_message(error_of_site(parameters));
 }
 
 TEST(AveragingTest, NegativeThicknessIsNotHiddenByAMean) {
   Raster raster = ribs("EPSG:31287", west + 300.0, south + 300.0, 1.0);
   raster.values[raster.index(100, 100)] = -1.0;
-  config::Case parameters = plain_case(ground());
-  parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
+  config::Case parameters = case_with_raster(raster);
   parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(320, 320, 520, 520)}});
   EXPECT_NE(error_of_site(parameters).find("is -1 m; allowed: 0 and more."), std::string::npos);
 }
@@ -202,10 +172,9 @@ TEST(AveragingTest, NegativeThicknessIsNotHiddenByAMean) {
 TEST(AveragingTest, BedsAreAveraged) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
   parameters.bed.law = config::BedLaw::strength;
-  parameters.bed.depth.over = InitialField::Over::raster;
-  parameters.bed.depth.source =
+  parameters.bed.depth = raster_field(
       geotiff("bed.tif", raster_of([](double x, double) { return std::fmod(x - west, 5.0) < 1.0 ? 5.0 : 0.0; },
-                                   west + 50.5, south + 50.5, 1.0, 900, 700));
+                                   west + 50.5, south + 50.5, 1.0, 900, 700)));
   const Raster depth = load_site(parameters).site.bed_depth;
   int inside = 0;
   for_points(depth, [&](int column, int row) {

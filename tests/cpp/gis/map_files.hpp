@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -81,10 +82,23 @@ inline Raster raster_of(const std::function<double(double, double)>& z, double x
   raster.columns = columns;
   raster.rows = rows;
   raster.crs = crs.empty() ? "" : reference_system_named(crs);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      raster.values.push_back(z(raster.x_of(column), raster.y_of(row)));
-    }
+  for_points(raster, [&](int column, int row) { raster.values.push_back(z(raster.x_of(column), raster.y_of(row))); });
+  return raster;
+}
+
+// Sets points of a rectangle: from a column and row on, and their numbers.
+inline void set_points(Raster& raster, int column, int row, int columns, int rows, double value) {
+  for (int k = 0; k < columns * rows; ++k) {
+    raster.values[raster.index(column + k % columns, row + k / columns)] = value;
+  }
+}
+
+// Adds white noise of an rms [m] to all points.
+inline Raster with_noise(Raster raster, double rms, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, rms);
+  for (double& value : raster.values) {
+    value += normal(random);
   }
   return raster;
 }
@@ -134,6 +148,14 @@ inline std::string foreign(const std::string& name, const ForeignRaster& what) {
   return file;
 }
 
+// Gives the stored numbers a scale and an offset.
+inline std::string scaled(const std::string& file, double scale, double offset) {
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  dataset->GetRasterBand(1)->SetScale(scale);
+  dataset->GetRasterBand(1)->SetOffset(offset);
+  return file;
+}
+
 // Features of a GeoJSON file: properties and geometry as JSON.
 struct JsonFeature {
   std::string properties, geometry;
@@ -170,10 +192,6 @@ inline std::string geojson(const std::string& name, const std::vector<JsonFeatur
                         features[k].properties, features[k].geometry);
   }
   return text_file(name, text + "]}");
-}
-
-inline std::filesystem::path shared_data() {
-  return std::filesystem::path(THAWSLIDE_SOURCE_DIR) / ".." / "shared" / "data";
 }
 
 }  // namespace thawslide::gis::map_files

@@ -71,20 +71,18 @@ TEST(MapWritingTest, LayersCarryTheirStyles) {
   EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
 }
 
-TEST(MapWritingTest, GeopackageWithoutASystem) {
-  write_geopackage(in_folder("maps.gpkg"), layers(), "");
-  EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // The format stores the date of the last change to a millisecond.
 TEST(MapWritingTest, EqualLayersMakeEqualBytes) {
-  const std::string crs = reference_system_named("EPSG:31287");
   const auto bytes = [&](const std::string& name) {
     std::vector<MapLayer> styled = layers();
     styled[1].style = vector_style({LayerKind::lines, {0, 0, 0}, 0.4, 1.0, ""});
-    write_geopackage(in_folder(name), styled, crs);
-    std::ifstream stream(in_folder(name), std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
+    write_geopackage(in_folder(name), styled, reference_system_named("EPSG:31287"));
+    return text_of(in_folder(name));
   };
   const std::string first = bytes("first.gpkg");
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
@@ -107,45 +105,40 @@ std::string in_xml(const std::string& file, const char* path) {
   return value;
 }
 
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
+// Compares attributes of a style, each with its path and value.
+void expect_in_xml(const std::string& file, const std::vector<std::pair<const char*, const char*>>& attributes) {
+  for (const auto& [path, value] : attributes) {
+    EXPECT_EQ(in_xml(file, path), value) << path;
+  }
 }
 
 TEST(MapWritingTest, RasterStyleContainsItsClasses) {
   const std::string file = in_folder("max_pressure.qml");
   write_raster_style(file, style_of_map("max_pressure"));
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.type"), "singlebandpseudocolor");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.classificationMax"), "3000000");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency.singleValuePixelList.pixelListEntry.max"), "0");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.colorRampType"), "DISCRETE");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.value"), "3000");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.color"), "#fcfdbf");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "0 to 3 kPa");
-  const std::string text = text_of(file);
-  EXPECT_NE(text.find("value=\"inf\" label=\"above 3000 kPa\""), std::string::npos);
-}
-
-TEST(MapWritingTest, RasterStyleOfSignedValues) {
-  const std::string file = in_folder("elevation_change.qml");
+  expect_in_xml(file, {{"pipe.rasterrenderer.type", "singlebandpseudocolor"},
+                       {"pipe.rasterrenderer.classificationMax", "3000000"},
+                       {"pipe.rasterrenderer.rasterTransparency.singleValuePixelList.pixelListEntry.max", "0"},
+                       {"pipe.rasterrenderer.rastershader.colorrampshader.colorRampType", "DISCRETE"},
+                       {"pipe.rasterrenderer.rastershader.colorrampshader.item.value", "3000"},
+                       {"pipe.rasterrenderer.rastershader.colorrampshader.item.color", "#fcfdbf"},
+                       {"pipe.rasterrenderer.rastershader.colorrampshader.item.label", "0 to 3 kPa"}});
+  EXPECT_NE(text_of(file).find("value=\"inf\" label=\"above 3000 kPa\""), std::string::npos);
   write_raster_style(file, style_of_map("elevation_change"));
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency"), "missing");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.minimumValue"), "-20");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "below -20 m");
+  expect_in_xml(file, {{"pipe.rasterrenderer.rasterTransparency", "missing"},
+                       {"pipe.rasterrenderer.rastershader.colorrampshader.minimumValue", "-20"},
+                       {"pipe.rasterrenderer.rastershader.colorrampshader.item.label", "below -20 m"}});
   EXPECT_NE(text_of(file).find("label=\"-0.5 to 0.5 m\" color=\"#f6f7f7\" alpha=\"0\""), std::string::npos);
 }
 
 TEST(MapWritingTest, HazardStylesHaveTheUsualLimits) {
-  const std::string file = in_folder("hazard.qml");
-  write_raster_style(file, hazard_style_of_map("max_thickness"));
-  const std::string thickness = text_of(file);
-  for (const char* label : {"0 to 0.5 m", "0.5 to 1 m", "1 to 2 m", "above 2 m"}) {
-    EXPECT_NE(thickness.find(fmt::format("label=\"{}\"", label)), std::string::npos) << label;
-  }
-  write_raster_style(file, hazard_style_of_map("max_pressure"));
-  const std::string pressure = text_of(file);
-  for (const char* label : {"0 to 3 kPa", "3 to 30 kPa", "above 30 kPa"}) {
-    EXPECT_NE(pressure.find(fmt::format("label=\"{}\"", label)), std::string::npos) << label;
+  const std::vector<std::pair<const char*, std::vector<const char*>>> limits{
+      {"max_thickness", {"0 to 0.5 m", "0.5 to 1 m", "1 to 2 m", "above 2 m"}},
+      {"max_pressure", {"0 to 3 kPa", "3 to 30 kPa", "above 30 kPa"}}};
+  for (const auto& [map, labels] : limits) {
+    write_raster_style(in_folder("hazard.qml"), hazard_style_of_map(map));
+    for (const char* label : labels) {
+      EXPECT_NE(text_of(in_folder("hazard.qml")).find(fmt::format("label=\"{}\"", label)), std::string::npos) << label;
+    }
   }
   EXPECT_TRUE(hazard_style_of_map("max_speed").classes.empty());
 }
@@ -163,16 +156,19 @@ TEST(MapWritingTest, EveryMapHasAStyleWithIncreasingLimits) {
 
 TEST(MapWritingTest, VectorStylesAreValid) {
   const std::string file = in_folder("style.qml");
-  write_file_atomically(file, vector_style({LayerKind::polygons, {200, 30, 30}, 0.6, 0.2, ""}));
-  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.type"), "fill");
-  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.layer.Option.Option.value"), "200,30,30,51");
-  EXPECT_EQ(in_xml(file, "labelsEnabled"), "0");
-  write_file_atomically(file, vector_style({LayerKind::lines, {0, 0, 0}, 0.4, 1.0, "time_s"}));
-  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.type"), "line");
-  EXPECT_EQ(in_xml(file, "labeling.settings.text-style.fieldName"), "time_s");
-  write_file_atomically(file, vector_style({LayerKind::points, {0, 0, 0}, 2.0, 1.0, "a<b"}));
-  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.layer.class"), "SimpleMarker");
-  EXPECT_EQ(in_xml(file, "labeling.settings.text-style.fieldName"), "a<b");
+  const auto expect = [&](const VectorStyle& style,
+                          const std::vector<std::pair<const char*, const char*>>& attributes) {
+    write_file_atomically(file, vector_style(style));
+    expect_in_xml(file, attributes);
+  };
+  expect({LayerKind::polygons, {200, 30, 30}, 0.6, 0.2, ""},
+         {{"renderer-v2.symbols.symbol.type", "fill"},
+          {"renderer-v2.symbols.symbol.layer.Option.Option.value", "200,30,30,51"},
+          {"labelsEnabled", "0"}});
+  expect({LayerKind::lines, {0, 0, 0}, 0.4, 1.0, "time_s"},
+         {{"renderer-v2.symbols.symbol.type", "line"}, {"labeling.settings.text-style.fieldName", "time_s"}});
+  expect({LayerKind::points, {0, 0, 0}, 2.0, 1.0, "a<b"}, {{"renderer-v2.symbols.symbol.layer.class", "SimpleMarker"},
+                                                           {"labeling.settings.text-style.fieldName", "a<b"}});
 }
 
 }  // namespace

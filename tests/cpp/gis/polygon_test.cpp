@@ -19,24 +19,13 @@ Polygon box(double min_x, double min_y, double max_x, double max_y) {
 
 double sum_of(const Raster& raster) { return std::accumulate(raster.values.begin(), raster.values.end(), 0.0); }
 
-TEST(PolygonTest, OverlappingOutlinesCountOnce) {
-  const Polygons both = union_of({box(0, 0, 10, 10), box(5, 5, 15, 20)});
-  EXPECT_EQ(both.size(), 1U);
-  EXPECT_NEAR(area_of(both), 100.0 + 150.0 - 25.0, 1e-12);
-  EXPECT_NEAR(area_of(intersection_of({box(0, 0, 10, 10)}, {box(5, 5, 15, 20)})), 25.0, 1e-12);
-  EXPECT_TRUE(intersection_of({box(0, 0, 1, 1)}, {box(5, 5, 6, 6)}).empty());
-}
-
 TEST(PolygonTest, FractionsOfABoxFollowFromItsSides) {
   const Raster layout = raster_of([](double, double) { return 0.0; }, 0.0, 0.0, 10.0, 5, 4);
   const Raster fraction = coverage_of({box(-5.0, 2.5, 25.0, 25.0)}, layout);
   const std::vector<double> rows{0.25, 1.0, 1.0, 0.0};  // cells begin at -5, 5, 15, 25
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 5; ++column) {
-      EXPECT_EQ(fraction.at(column, row), column < 3 ? rows[static_cast<std::size_t>(row)] : 0.0)
-          << column << " " << row;
-    }
-  }
+  for_points(fraction, [&](int column, int row) {
+    EXPECT_EQ(fraction.at(column, row), column < 3 ? rows[static_cast<std::size_t>(row)] : 0.0) << column << " " << row;
+  });
 }
 
 // A star with a hole, far from the origin, on cells that are not square.
@@ -79,20 +68,15 @@ TEST(PolygonTest, FractionOfATriangleInOneCell) {
 TEST(PolygonTest, AreasOfAMaskCoverItsCells) {
   // A ring about one empty cell, and a cell that touches it at a corner only.
   Raster mask = raster_of([](double, double) { return 0.0; }, 100.0, 200.0, 2.0, 5, 4);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      mask.values[mask.index(column, row)] = row == 1 && column == 1 ? missing : 0.5;
-    }
-  }
+  set_points(mask, 0, 0, 3, 3, 0.5);
+  mask.values[mask.index(1, 1)] = missing;
   mask.values[mask.index(3, 3)] = 2.0;
   const Polygons areas = areas_of_mask(mask);
   ASSERT_EQ(areas.size(), 2U);
   EXPECT_NEAR(area_of(areas), 9.0 * 4.0, 1e-9);
   const Rectangle extent = extent_of(areas);
-  EXPECT_EQ(extent.min_x, 99.0);
-  EXPECT_EQ(extent.max_x, 107.0);
-  EXPECT_EQ(extent.min_y, 199.0);
-  EXPECT_EQ(extent.max_y, 207.0);
+  EXPECT_EQ((std::array{extent.min_x, extent.max_x, extent.min_y, extent.max_y}),
+            (std::array{99.0, 107.0, 199.0, 207.0}));
   // Polygons made from cells cover these cells.
   const Raster fraction = coverage_of(areas, mask);
   for (std::size_t k = 0; k < mask.values.size(); ++k) {

@@ -11,6 +11,8 @@ namespace {
 
 using namespace map_files;
 
+Raster read_raster(const std::string& file) { return RasterFile(file, Quantity::length).read(); }
+
 TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
   Raster raster =
       raster_of([](double x, double y) { return std::sin(x) + 1e-3 * y; }, 400005.25, 300001.5, 4.9977, 7, 5);
@@ -29,11 +31,7 @@ TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
   EXPECT_EQ(name_of(read.crs), "EPSG:31287");
   EXPECT_EQ(opened.conversion().warning, "");
   for (std::size_t k = 0; k < raster.values.size(); ++k) {
-    if (k == raster.index(2, 1)) {
-      EXPECT_TRUE(std::isnan(read.values[k]));
-    } else {
-      EXPECT_EQ(read.values[k], raster.values[k]);
-    }
+    EXPECT_TRUE(k == raster.index(2, 1) ? std::isnan(read.values[k]) : read.values[k] == raster.values[k]) << k;
   }
 }
 
@@ -66,7 +64,7 @@ TEST(RasterFileTest, EveryTypeIsReadInBothDirectionsOfRows) {
       what.transform[3] = direction < 0.0 ? 300030.0 : 300000.0;
       what.transform[5] = direction * 10.0;
       what.nodata = 6.0;
-      const Raster read = RasterFile(foreign("dem.tif", what), Quantity::length).read();
+      const Raster read = read_raster(foreign("dem.tif", what));
       SCOPED_TRACE(fmt::format("{} {}", GDALGetDataTypeName(type), direction));
       EXPECT_EQ(read.x, 400005.0);
       EXPECT_EQ(read.y, 300005.0);
@@ -79,26 +77,17 @@ TEST(RasterFileTest, EveryTypeIsReadInBothDirectionsOfRows) {
 }
 
 TEST(RasterFileTest, NodataOfFloatsAndNonFiniteValuesAreMissing) {
-  ForeignRaster what;
-  what.nodata = -9999.9;  // as a float, this is a different number
-  what.values = {-9999.9, missing, std::numeric_limits<double>::infinity(), 7.5};
-  const Raster read = RasterFile(foreign("dem.tif", what), Quantity::length).read();
-  EXPECT_TRUE(std::isnan(read.at(0, 2)));
-  EXPECT_TRUE(std::isnan(read.at(1, 2)));
-  EXPECT_TRUE(std::isnan(read.at(2, 2)));
+  constexpr double nodata = -9999.9;  // as a float, this is a different number
+  const Raster read = read_raster(foreign(
+      "dem.tif", {.nodata = nodata, .values = {nodata, missing, std::numeric_limits<double>::infinity(), 7.5}}));
+  for (const int column : {0, 1, 2}) {
+    EXPECT_TRUE(std::isnan(read.at(column, 2))) << column;
+  }
   EXPECT_EQ(read.at(3, 2), 7.5);
 }
 
 TEST(RasterFileTest, StoredNumbersAreScaled) {
-  ForeignRaster what;
-  what.type = GDT_Int16;
-  what.nodata = 2.0;
-  const std::string file = foreign("dem.tif", what);
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
-  dataset->GetRasterBand(1)->SetScale(0.5);
-  dataset->GetRasterBand(1)->SetOffset(1000.0);
-  dataset.reset();
-  const Raster read = RasterFile(file, Quantity::length).read();
+  const Raster read = read_raster(scaled(foreign("dem.tif", {.type = GDT_Int16, .nodata = 2.0}), 0.5, 1000.0));
   EXPECT_EQ(read.at(0, 2), 1000.5);
   EXPECT_TRUE(std::isnan(read.at(1, 2)));
   EXPECT_EQ(read.at(2, 2), 1001.5);
@@ -123,7 +112,7 @@ TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
   // Integers first: a reader that infers the type from the beginning of the file would lose the fractions.
   std::string text = "ncols 3\nnrows 2\nxllcorner 400000.5\nyllcorner 300000.25\ncellsize 4.9977\nNODATA_value -9999\n";
   text += "1234 1235 -9999\n1300 2345.6789012 1302\n";
-  const Raster read = RasterFile(text_file("dem.asc", text), Quantity::length).read();
+  const Raster read = read_raster(text_file("dem.asc", text));
   EXPECT_EQ(read.cell_x, 4.9977);
   EXPECT_EQ(read.cell_y, 4.9977);
   EXPECT_NEAR(read.x, 400000.5 + 0.5 * 4.9977, 1e-9);
@@ -137,7 +126,7 @@ TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
 TEST(RasterFileTest, AsciiGridByCentresWithItsPrj) {
   text_file("dem.prj", reference_system_named("EPSG:31254"));
   const std::string text = "ncols 2\nnrows 2\nxllcenter 10\nyllcenter 20\ncellsize 2.5\n1 2\n3 4\n";
-  const Raster read = RasterFile(text_file("dem.asc", text), Quantity::length).read();
+  const Raster read = read_raster(text_file("dem.asc", text));
   EXPECT_EQ(read.x, 10.0);
   EXPECT_EQ(read.y, 20.0);
   EXPECT_EQ(read.at(0, 0), 3.0);
@@ -146,15 +135,12 @@ TEST(RasterFileTest, AsciiGridByCentresWithItsPrj) {
 
 TEST(RasterFileTest, LargeModelIsReadInSeconds) {
   const int count = 3000;
-  Raster raster = raster_of([](double, double) { return 0.0; }, 0.0, 0.0, 10.0, 1, 1);
-  raster.columns = raster.rows = count;
-  raster.values.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(count));
-  for (std::size_t k = 0; k < raster.values.size(); ++k) {
-    raster.values[k] = 2000.0 + 0.25 * static_cast<double>(k % 977);
-  }
+  int k = 0;
+  const Raster raster =
+      raster_of([&](double, double) { return 2000.0 + 0.25 * (++k % 977); }, 0.0, 0.0, 10.0, count, count);
   const std::string file = geotiff("large.tif", raster);
   const auto start = std::clock();  // processor time: other processes do not delay it
-  const Raster read = RasterFile(file, Quantity::length).read();
+  const Raster read = read_raster(file);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   EXPECT_EQ(read.values, raster.values);
   EXPECT_LT(seconds, 10.0);
@@ -162,14 +148,11 @@ TEST(RasterFileTest, LargeModelIsReadInSeconds) {
 }
 
 std::string error_of_file(const std::string& file) {
-  return error_of([&] { static_cast<void>(RasterFile(file, Quantity::length).read()); });
-}
-
-TEST(RasterFaultsTest, MissingFile) {
-  EXPECT_EQ(error_of_file(in_folder("none.tif")), "FOLDER/none.tif: there is no such file. Correct the path.");
+  return error_of([&] { return read_raster(file); });
 }
 
 TEST(RasterFaultsTest, NoRaster) {
+  EXPECT_EQ(error_of_file(in_folder("none.tif")), "FOLDER/none.tif: there is no such file. Correct the path.");
   const std::string message = error_of_file(text_file("dem.tif", "this is no raster"));
   EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/dem.tif: the raster cannot be opened");
   expect_message(message);
@@ -188,45 +171,20 @@ TEST(RasterFaultsTest, AsciiGridsThatGdalDoesNotOpen) {
   }
 }
 
-TEST(RasterFaultsTest, SeveralBands) {
-  ForeignRaster what;
-  what.bands = 3;
-  expect_message(error_of_file(foreign("rgb.tif", what)));
-}
-
-TEST(RasterFaultsTest, Rotated) {
-  ForeignRaster what;
-  what.transform = {400000.0, 8.0, 6.0, 300030.0, 6.0, -8.0};
-  expect_message(error_of_file(foreign("turned.tif", what)));
-}
-
-TEST(RasterFaultsTest, OriginThatIsNotANumber) {
-  ForeignRaster what;
-  what.transform = {400000.0, std::numeric_limits<double>::quiet_NaN(), 0.0, 300030.0, 0.0, -8.0};
-  expect_message(error_of_file(foreign("cells.tif", what)));
-  what.transform = {400000.0, 8.0, 0.0, 300030.0, 0.0, -1e308};
-  expect_message(error_of_file(foreign("height.tif", what)));
-}
-
-TEST(RasterFaultsTest, WithoutAnOrigin) {
-  GDALAllRegister();
-  const std::string file = in_folder("picture.tif");
+TEST(RasterFaultsTest, UnusableRasters) {
+  expect_message(error_of_file(foreign("rgb.tif", {.bands = 3})));
+  const auto error_of_place = [](const char* name, const std::array<double, 6>& transform) {
+    return error_of_file(foreign(name, {.transform = transform}));
+  };
+  expect_message(error_of_place("turned.tif", {400000.0, 8.0, 6.0, 300030.0, 6.0, -8.0}));
+  expect_message(error_of_place("cells.tif", {400000.0, missing, 0.0, 300030.0, 0.0, -8.0}));
+  expect_message(error_of_place("height.tif", {400000.0, 8.0, 0.0, 300030.0, 0.0, -1e308}));
+  const std::string file = in_folder("picture.tif");  // without an origin
   GDALDatasetUniquePtr(
       GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 4, 3, 1, GDT_Float32, nullptr));
   expect_message(error_of_file(file));
-}
-
-TEST(RasterFaultsTest, ComplexNumbers) {
-  ForeignRaster what;
-  what.type = GDT_CFloat32;
-  expect_message(error_of_file(foreign("radar.tif", what)));
-}
-
-TEST(RasterFaultsTest, NodataOnly) {
-  ForeignRaster what;
-  what.nodata = -1.0;
-  what.values.assign(12, -1.0);
-  expect_message(error_of_file(foreign("holes.tif", what)));
+  expect_message(error_of_file(foreign("radar.tif", {.type = GDT_CFloat32})));
+  expect_message(error_of_file(foreign("holes.tif", {.nodata = -1.0, .values = std::vector(12, -1.0)})));
 }
 
 TEST(RasterFaultsTest, TruncatedFilesAreRefused) {

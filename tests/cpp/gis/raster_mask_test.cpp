@@ -66,25 +66,15 @@ TEST(RasterMaskTest, MaskedPointsHaveNoDataInBothDirectionsOfRowsAndInWindows) {
 
 TEST(RasterMaskTest, NodataAndMaskBothCount) {
   for (const MaskKind kind : kinds) {
-    ForeignRaster what;
-    what.nodata = 2.0;
-    const Raster read =
-        RasterFile(masked("map.tif", kind, what, [](int column, int line) { return column == 3 && line == 0; }),
-                   Quantity::length)
-            .read();
-    EXPECT_TRUE(std::isnan(read.at(1, 2))) << static_cast<int>(kind);
-    EXPECT_TRUE(std::isnan(read.at(3, 2))) << static_cast<int>(kind);
+    SCOPED_TRACE(static_cast<int>(kind));
+    const auto read_masked = [&](const ForeignRaster& what, const std::function<bool(int, int)>& is_masked) {
+      return RasterFile(masked("map.tif", kind, what, is_masked), Quantity::length).read();
+    };
+    const Raster read = read_masked({.nodata = 2.0}, [](int column, int line) { return column == 3 && line == 0; });
+    EXPECT_TRUE(std::isnan(read.at(1, 2)) && std::isnan(read.at(3, 2)));
     EXPECT_EQ(read.at(0, 2), 1.0);
     std::filesystem::remove(in_folder("map.tif.msk"));
-  }
-}
-
-TEST(RasterMaskTest, MaskedPointsOnlyAreAnError) {
-  for (const MaskKind kind : kinds) {
-    EXPECT_EQ(error_of([&] {
-                static_cast<void>(
-                    RasterFile(masked("map.tif", kind, {}, [](int, int) { return true; }), Quantity::length).read());
-              }),
+    EXPECT_EQ(error_of([&] { return read_masked({}, [](int, int) { return true; }); }),
               "FOLDER/map.tif: no point holds a value, all are nodata. Check that it is the right file.");
     std::filesystem::remove(in_folder("map.tif.msk"));
   }
@@ -93,56 +83,45 @@ TEST(RasterMaskTest, MaskedPointsOnlyAreAnError) {
 TEST(RasterMaskTest, MaskFileNextToARasterIsAGeotiff) {
   const std::string file = foreign("map.tif", {});
   text_file("map.tif.msk", "<VRTDataset rasterXSize=\"4\" rasterYSize=\"3\"></VRTDataset>");
-  expect_message(error_of([&] { static_cast<void>(RasterFile(file, Quantity::length)); }));
+  expect_message(error_of([&] { return RasterFile(file, Quantity::length).layout(); }));
 }
 
-// Points 10 m apart that cover the ground; residual values below the mask.
-ForeignRaster leftovers(double value) {
-  ForeignRaster what;
-  what.columns = 101;
-  what.rows = 81;
-  what.transform = {west - 5.0, 10.0, 0.0, south + 805.0, 0.0, -10.0};
-  what.values.assign(101 * 81, value);
-  return what;
+// Points 10 m apart that cover the ground; residual values below the mask, which leaves columns and lines 30 to 49.
+std::string leftovers(const char* name, MaskKind kind, double value) {
+  const ForeignRaster what{.columns = 101,
+                           .rows = 81,
+                           .transform = {west - 5.0, 10.0, 0.0, south + 805.0, 0.0, -10.0},
+                           .values = std::vector(101 * 81, value)};
+  return masked(name, kind, what,
+                [](int column, int line) { return column < 30 || column >= 50 || line < 30 || line >= 50; });
 }
-
-// Masked except for columns 30 to 49 and lines 30 to 49.
-bool beyond_box(int column, int line) { return column < 30 || column >= 50 || line < 30 || line >= 50; }
 
 TEST(RasterMaskTest, ValuesBelowAMaskAreNotThickness) {
   for (const MaskKind kind : kinds) {
     config::Case parameters = plain_case(ground());
-    parameters.bodies["rock"] = raster_body(masked("thickness.tif", kind, leftovers(10.0), beyond_box));
-    EXPECT_NEAR(volume_of(release_of(parameters).thickness), 200.0 * 200.0 * 10.0, 1e-6);
+    parameters.bodies["rock"] = raster_body(leftovers("thickness.tif", kind, 10.0));
+    EXPECT_NEAR(release_volume(parameters), 200.0 * 200.0 * 10.0, 1e-6);
     std::filesystem::remove(in_folder("thickness.tif.msk"));
   }
 }
 
 TEST(RasterMaskTest, MaskedTemperatureBedAndGroundAreMissing) {
-  const std::string box = box_at(250, 250, 450, 450);
-  config::Case parameters = case_with_release({{"", box}});
-  parameters.bodies.at("rock").temperature.over = InitialField::Over::raster;
-  parameters.bodies.at("rock").temperature.source =
-      masked("temperature.tif", MaskKind::internal, leftovers(-5.0), beyond_box);
+  const config::Case release = case_with_release({{"", box_at(250, 250, 450, 450)}});
+  config::Case parameters = release;
+  parameters.bodies.at("rock").temperature = raster_field(leftovers("temperature.tif", MaskKind::internal, -5.0));
   expect_message(error_of_site(parameters));
-
-  parameters = case_with_release({{"", box}});
+  parameters = release;
   parameters.bed.law = config::BedLaw::strength;
-  parameters.bed.depth.over = InitialField::Over::raster;
-  parameters.bed.depth.source = masked("bed.tif", MaskKind::internal, leftovers(1.0), beyond_box);
+  parameters.bed.depth = raster_field(leftovers("bed.tif", MaskKind::internal, 1.0));
   expect_message(error_of_site(parameters));
-
-  parameters = case_with_release({{"", box}});
+  parameters = release;
   const Raster heights = ground();
-  ForeignRaster dem;
-  dem.type = GDT_Float64;
-  dem.columns = heights.columns;
-  dem.rows = heights.rows;
-  dem.transform = {west - 2.5, 5.0, 0.0, south + 802.5, 0.0, -5.0};
-  for (int line = 0; line < dem.rows; ++line) {
-    for (int column = 0; column < dem.columns; ++column) {
-      dem.values.push_back(heights.at(column, dem.rows - 1 - line));
-    }
+  ForeignRaster dem{.type = GDT_Float64,
+                    .columns = heights.columns,
+                    .rows = heights.rows,
+                    .transform = {west - 2.5, 5.0, 0.0, south + 802.5, 0.0, -5.0}};
+  for (int k = 0; k < dem.rows * dem.columns; ++k) {
+    dem.values.push_back(heights.at(k % dem.columns, dem.rows - 1 - k / dem.columns));
   }
   parameters.terrain.file =
       masked("dem.tif", MaskKind::internal, dem, [](int column, int line) { return column == 60 && line == 100; });

@@ -2,6 +2,7 @@
 // on it. Constructed without a case file.
 #pragma once
 
+#include "base/raster_sampling.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"
@@ -47,6 +48,22 @@ inline config::Body raster_body(const std::string& file) {
   return body;
 }
 
+// The same with the surface before the slide.
+inline config::Body surface_body(const std::string& file) {
+  config::Body body = raster_body(file);
+  body.thickness.from = config::MapValue::From::surface;
+  return body;
+}
+
+// Field of a body or bed from an attribute or a raster.
+inline InitialField field_of(InitialField::Over over, const std::string& source) {
+  InitialField field;
+  field.over = over;
+  field.source = source;
+  return field;
+}
+inline InitialField raster_field(const std::string& file) { return field_of(InitialField::Over::raster, file); }
+
 // Box in metres from the first point of the ground.
 inline std::string box_at(double min_x, double min_y, double max_x, double max_y) {
   return box_json(west + min_x, south + min_y, west + max_x, south + max_y);
@@ -58,9 +75,18 @@ inline config::Case case_with_release(const std::vector<JsonFeature>& features, 
   return made;
 }
 
+// The only body is the area in which a raster has a thickness.
+inline config::Case case_with_raster(const Raster& thickness, const Raster& dem = ground()) {
+  config::Case made = plain_case(dem);
+  made.bodies["rock"] = raster_body(geotiff("thickness.tif", thickness));
+  return made;
+}
+
 inline config::Release release_of(const config::Case& parameters) {
   return load_site(parameters).site.releases.at("rock");
 }
+
+inline double release_volume(const config::Case& parameters) { return volume_of(release_of(parameters).thickness); }
 
 // Thickness at a position in metres from the first point of the ground; 0 beyond the raster.
 inline double thickness_at(const config::Release& release, double x, double y) {
@@ -72,7 +98,7 @@ inline double thickness_at(const config::Release& release, double x, double y) {
 }
 
 inline std::string error_of_site(const config::Case& parameters) {
-  return error_of([&] { static_cast<void>(load_site(parameters)); });
+  return error_of([&] { return load_site(parameters); });
 }
 
 }  // namespace thawslide::gis::site_case

@@ -78,30 +78,18 @@ TEST(ValueUnitTest, HeightUnitOfTheReferenceSystemAppliesToLengthsOnly) {
 }
 
 TEST(ValueUnitTest, UnitIsThatOfTheScaledValues) {
-  ForeignRaster what;
-  what.type = GDT_Int16;
-  what.unit = "cm";
-  const std::string file = foreign("map.tif", what);
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
-  dataset->GetRasterBand(1)->SetScale(10.0);
-  dataset->GetRasterBand(1)->SetOffset(500.0);
-  dataset.reset();
+  const std::string file = scaled(foreign("map.tif", {.type = GDT_Int16, .unit = "cm"}), 10.0, 500.0);
   EXPECT_NEAR(RasterFile(file, Quantity::length).read().at(0, 2), 0.01 * (10.0 * 1.0 + 500.0), 1e-12);
+  scaled(file, 0.0, 0.0);
+  expect_message(error_of([&] { return RasterFile(file, Quantity::length).layout(); }));
 }
 
-TEST(ValueUnitTest, InvalidScalesAreRefused) {
-  const std::string file = foreign("map.tif", {});
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
-  dataset->GetRasterBand(1)->SetScale(0.0);
-  dataset.reset();
-  expect_message(error_of([&] { static_cast<void>(RasterFile(file, Quantity::length)); }));
-}
-
-Raster times(Raster raster, double factor) {
+std::string write_in_unit(const std::string& file, Raster raster, double per_metre, const std::string& unit) {
   for (double& value : raster.values) {
-    value *= factor;
+    value *= per_metre;
   }
-  return raster;
+  write_geotiff(in_folder(file), raster, {unit, "values"});
+  return in_folder(file);
 }
 
 Raster square(const std::string& crs = "EPSG:31287") {
@@ -115,10 +103,9 @@ Raster square(const std::string& crs = "EPSG:31287") {
 TEST(ValueUnitTest, VolumesAreTheSameInEveryUnit) {
   const Raster thickness = square();
   for (const auto& [unit, metres] : {std::pair("ft", 0.3048), {"cm", 0.01}, {"dm", 0.1}, {"km", 1000.0}}) {
-    config::Case parameters = plain_case(ground());
-    write_geotiff(parameters.terrain.file, times(ground(), 1.0 / metres), {unit, "elevation"});
-    write_geotiff(in_folder("thickness.tif"), times(thickness, 1.0 / metres), {unit, "thickness"});
-    parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
+    const config::Case parameters = case_with_raster(thickness);
+    write_in_unit("dem.tif", ground(), 1.0 / metres, unit);
+    write_in_unit("thickness.tif", thickness, 1.0 / metres, unit);
     const SiteAndWarnings loaded = load_site(parameters);
     EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6) << unit;
     EXPECT_NEAR(bilinear(*loaded.site.ground, west + 400.0, south + 400.0, Missing::unknown), 1700.0, 1e-6) << unit;
@@ -132,9 +119,8 @@ TEST(ValueUnitTest, VolumesAreTheSameInEveryUnit) {
 
 TEST(ValueUnitTest, CompoundSystemsUseTheirHorizontalPart) {
   const Raster thickness = square("EPSG:31287+6360");
-  config::Case parameters = plain_case(ground());
-  parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
-  write_geotiff(in_folder("thickness.tif"), times(thickness, 3937.0 / 1200.0), {"", "thickness"});
+  const config::Case parameters = case_with_raster(thickness);
+  write_in_unit("thickness.tif", thickness, 3937.0 / 1200.0, "");
   const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6);
   EXPECT_EQ(loaded.warnings,
@@ -145,9 +131,7 @@ TEST(ValueUnitTest, CompoundSystemsUseTheirHorizontalPart) {
 TEST(ValueUnitTest, UnitOfAnotherQuantityIsReportedAtTheKey) {
   config::Case parameters = case_with_release({{"", box_at(250, 250, 450, 450)}});
   parameters.locations["body.rock.temperature"] = "case.toml:11:3";
-  parameters.bodies.at("rock").temperature.over = InitialField::Over::raster;
-  parameters.bodies.at("rock").temperature.source = in_folder("temperature.tif");
-  write_geotiff(in_folder("temperature.tif"), ground(), {"m", "elevation"});
+  parameters.bodies.at("rock").temperature = raster_field(write_in_unit("temperature.tif", ground(), 1.0, "m"));
   expect_message(error_of_site(parameters));
 }
 
