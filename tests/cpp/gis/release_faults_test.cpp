@@ -6,42 +6,39 @@ namespace {
 
 using namespace site_case;
 
-constexpr const char* at_release = "case.toml:9:11: body.rock.release: ";
-constexpr const char* at_thickness = "case.toml: body.rock.thickness: ";
-
-TEST(ReleaseFaultsTest, OutsideTheTerrainModel) {
-  expect_message(error_of_site(case_with_release({{"", box_at(-500, 300, -400, 400)}})));
-  expect_message(error_of_site(case_with_release({{"", box_at(900, 300, 1010, 400)}})));
-}
-
-TEST(ReleaseFaultsTest, OutsideTheDomain) {
-  expect_message(error_of_site(case_with_release({{"", box_at(60, 300, 200, 720)}})));
-  config::Case parameters = case_with_release({{"", box_at(101, 300, 200, 400)}});
-  EXPECT_EQ(error_of_site(parameters), "no error");
+TEST(ReleaseFaultsTest, OutsideTheDemOrTheDomain) {
+  for (const std::string& box :
+       {box_at(-500, 300, -400, 400), box_at(900, 300, 1010, 400), box_at(60, 300, 200, 720)}) {
+    expect_message(error_of_site(case_with_release({{"", box}})));
+  }
+  EXPECT_EQ(error_of_site(case_with_release({{"", box_at(101, 300, 200, 400)}})), "no error");
 }
 
 TEST(ReleaseFaultsTest, TaperThatReachesTooFar) {
   config::Case parameters = case_with_release({{"", box_at(111, 300, 200, 400)}});
   parameters.locations["body.rock.taper"] = "--set body.rock.taper=50";
-  parameters.bodies["rock"].taper = 50.0;
-  expect_message(error_of_site(parameters));
-  parameters.bodies["rock"].taper = 30.0;
-  EXPECT_EQ(error_of_site(parameters), "no error");
-  parameters.bodies["rock"].taper = 30.5;
-  expect_message(error_of_site(parameters));
-  parameters.bodies["rock"].taper = 500.0;
-  expect_message(error_of_site(parameters));
+  for (const double taper : {50.0, 30.0, 30.5, 500.0}) {
+    parameters.bodies["rock"].taper = taper;
+    if (taper == 30.0) {
+      EXPECT_EQ(error_of_site(parameters), "no error");
+    } else {
+      expect_message(error_of_site(parameters));
+    }
+  }
 }
 
-TEST(ReleaseFaultsTest, TaperOverNodata) {
+TEST(ReleaseFaultsTest, OverNodata) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
-  Raster dem = ground();
-  dem.values[dem.index(83, 66)] = missing;
-  parameters.terrain.file = geotiff("dem.tif", dem);
-  parameters.bodies["rock"].taper = 20.0;
-  EXPECT_EQ(error_of_site(parameters), "no error");
-  parameters.bodies["rock"].taper = 40.0;
-  expect_message(error_of_site(parameters));
+  const auto with_hole = [&](int column, int columns, double taper) {
+    Raster dem = ground();
+    set_points(dem, column, 66, columns, 1, missing);
+    parameters.terrain.file = geotiff("dem.tif", dem);
+    parameters.bodies["rock"].taper = taper;
+    return error_of_site(parameters);
+  };
+  expect_message(with_hole(70, 2, 0.0));
+  EXPECT_EQ(with_hole(83, 1, 20.0), "no error");
+  expect_message(with_hole(83, 1, 40.0));
 }
 
 TEST(ReleaseFaultsTest, SmallerThanACellOfTheTerrainModel) {
@@ -51,31 +48,18 @@ TEST(ReleaseFaultsTest, SmallerThanACellOfTheTerrainModel) {
   EXPECT_EQ(error_of_site(parameters), "no error");
 }
 
-TEST(ReleaseFaultsTest, OverNodata) {
-  config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
-  Raster dem = ground();
-  dem.values[dem.index(70, 66)] = dem.values[dem.index(71, 66)] = missing;
-  parameters.terrain.file = geotiff("dem.tif", dem);
-  expect_message(error_of_site(parameters));
-}
-
-TEST(ReleaseFaultsTest, ThicknessMissing) {
-  expect_message(error_of_site(case_with_release({{"", box_at(300, 300, 400, 400)}}, 0.0)));
-}
-
-TEST(ReleaseFaultsTest, Attributes) {
+TEST(ReleaseFaultsTest, MissingOrInvalidThickness) {
   const std::string box = box_at(300, 300, 400, 400);
+  expect_message(error_of_site(case_with_release({{"", box}}, 0.0)));
   config::Case parameters = case_with_release({{R"("thick":5)", box}, {R"("thick":null)", box}});
   parameters.bodies["rock"].thickness = {config::MapValue::From::attribute, 0.0, "thickness"};
   expect_message(error_of_site(parameters));
   parameters.bodies["rock"].thickness.source = "thick";
   expect_message(error_of_site(parameters));
-  geojson("release.geojson", {{R"("thick":"5 m","name":"top")", box}});
-  expect_message(error_of_site(parameters));
-  geojson("release.geojson", {{R"("thick":-2)", box}});
-  expect_message(error_of_site(parameters));
-  geojson("release.geojson", {{R"("thick":0)", box}});
-  expect_message(error_of_site(parameters));
+  for (const char* attributes : {R"("thick":"5 m","name":"top")", R"("thick":-2)", R"("thick":0)"}) {
+    geojson("release.geojson", {{attributes, box}});
+    expect_message(error_of_site(parameters));
+  }
 }
 
 TEST(ReleaseFaultsTest, ReleaseTimesOfPolygons) {
@@ -159,17 +143,15 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
 TEST(ReleaseFaultsTest, FieldsOutOfRange) {
   config::Case parameters = case_with_release({{R"("t":-8,"n":0)", box_at(300, 300, 400, 400)}});
   config::Body& body = parameters.bodies["rock"];
-  body.porosity.over = InitialField::Over::attribute;
-  body.porosity.source = "n";
+  body.porosity = field_of(InitialField::Over::attribute, "n");
   expect_message(error_of_site(parameters));
   body.porosity = InitialField(0.3);
-  body.temperature.over = InitialField::Over::raster;
-  body.temperature.source =
-      geotiff("t.tif", raster_of([](double, double) { return 265.0; }, west + 200.0, south + 200.0, 5.0, 80, 80));
-  expect_message(error_of_site(parameters));
-  body.temperature.source =
-      geotiff("t.tif", raster_of([](double, double) { return -5.0; }, west + 200.0, south + 200.0, 5.0, 35, 80));
-  expect_message(error_of_site(parameters));
+  for (const auto& [temperature, columns] : {std::pair(265.0, 80), {-5.0, 35}}) {
+    body.temperature =
+        raster_field(geotiff("t.tif", raster_of([&, value = temperature](double, double) { return value; },
+                                                west + 200.0, south + 200.0, 5.0, columns, 80)));
+    expect_message(error_of_site(parameters));
+  }
 }
 
 TEST(ReleaseFaultsTest, CrossingOutlineIsReportedAtTheKey) {

@@ -74,31 +74,27 @@ TEST(SiteTest, WrongTagIsReportedAtTheKey) {
 TEST(SiteTest, DomainBeyondTheTerrainModel) {
   config::Case parameters = plain_case(ground());
   parameters.locations["grid.min"] = "case.toml:3:1";
-  parameters.grid.min = {west - 12.5, south + 100.0, 0.0};
-  parameters.grid.max = {west + 900.0, south + 840.0, 3000.0};
-  expect_message(error_of_site(parameters));
-  parameters.terrain.resample = 20.0;
-  expect_message(error_of_site(parameters));
+  const auto with = [&](const config::Point& least, const config::Point& greatest, double distance) {
+    parameters.grid.min = least;
+    parameters.grid.max = greatest;
+    parameters.terrain.resample = distance;
+    return error_of_site(parameters);
+  };
+  const config::Point least{west - 12.5, south + 100.0, 0.0}, greatest{west + 900.0, south + 840.0, 3000.0};
+  expect_message(with(least, greatest, 0.0));
+  expect_message(with(least, greatest, 20.0));
   parameters.locations["terrain.resample"] = "case.toml:4:1";
-  parameters.terrain.resample = 1e-7;
-  expect_message(error_of_site(parameters));
-  parameters.terrain.resample = 0.0;
-  parameters.grid.min = {0.0, 0.0, 0.0};
-  parameters.grid.max = {100.0, 50.0, 3000.0};
-  expect_message(error_of_site(parameters));
-  parameters.grid.min = {west, south, 0.0};
-  parameters.grid.max = {west + 1000.0, south + 800.0, 0.0};
+  expect_message(with(least, greatest, 1e-7));
+  expect_message(with({0.0, 0.0, 0.0}, {100.0, 50.0, 3000.0}, 0.0));
+  EXPECT_EQ(with({west, south, 0.0}, {west + 1000.0, south + 800.0, 0.0}, 0.0), "no error");
   EXPECT_EQ(load_site(parameters).site.ground->columns, 201);
 }
 
-TEST(SiteTest, ImplausibleElevations) {
+TEST(SiteTest, ImplausibleElevationsAndUnits) {
   Raster dem = ground();
   dem.values[dem.index(100, 80)] = -32768.0;
-  expect_message(error_of_site(plain_case(dem)));
-}
-
-TEST(SiteTest, ElevationsInAnUnknownUnit) {
-  config::Case parameters = plain_case(ground());
+  const config::Case parameters = plain_case(dem);
+  expect_message(error_of_site(parameters));
   write_geotiff(parameters.terrain.file, ground(), {"chains", "elevation"});
   expect_message(error_of_site(parameters));
 }
