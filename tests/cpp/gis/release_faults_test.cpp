@@ -112,8 +112,7 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
   expect_message(with(raster_of([](double, double) { return 2.0; }, west, south, 5.0, 100, 100)));
   parameters.bodies["rock"] = release_body(geotiff("release.tif", ground()), 5.0);
   expect_message(error_of_site(parameters));
-  parameters.bodies["rock"] = raster_body(geotiff("before.tif", ground()));
-  parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+  parameters.bodies["rock"] = surface_body(geotiff("before.tif", ground()));
   expect_message(error_of_site(parameters));
   parameters.bodies["rock"] = raster_body(in_folder("none.tif"));
   expect_message(error_of_site(parameters));

@@ -116,13 +116,11 @@ TEST(ReleaseTest, CutLowersTheGroundAndOnTopLeavesIt) {
   const config::Site cut = load_site(parameters).site;
   const config::Release& release = cut.releases.at("rock");
   EXPECT_EQ(release.thickness.values, on_top.releases.at("rock").thickness.values);
-  for (int row = 0; row < cut.ground->rows; ++row) {
-    for (int column = 0; column < cut.ground->columns; ++column) {
-      const double x = cut.ground->x_of(column), y = cut.ground->y_of(row);
-      EXPECT_EQ(on_top.ground->at(column, row), plane(x, y));
-      EXPECT_NEAR(cut.ground->at(column, row) + thickness_at(release, x - west, y - south), plane(x, y), 1e-9);
-    }
-  }
+  for_points(*cut.ground, [&](int column, int row) {
+    const double x = cut.ground->x_of(column), y = cut.ground->y_of(row);
+    EXPECT_EQ(on_top.ground->at(column, row), plane(x, y));
+    EXPECT_NEAR(cut.ground->at(column, row) + thickness_at(release, x - west, y - south), plane(x, y), 1e-9);
+  });
   EXPECT_EQ(thickness_at(release, 350.0, 350.0), 8.0);
 }
 
@@ -141,22 +139,17 @@ TEST(ReleaseTest, TaperKeepsTheVolume) {
                                "m: it changes nothing"});
 }
 
-TEST(ReleaseTest, WarnsOfANarrowRelease) {
-  config::Case strip = case_with_release({{"", box_at(300, 300, 400, 303)}}, 2.0);
-  const SiteAndWarnings loaded = load_site(strip);
-  EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), 600.0, 1e-6);
-  EXPECT_EQ(loaded.warnings,
+TEST(ReleaseTest, WarnsOfNarrowReleasesAndTowers) {
+  const SiteAndWarnings strip = load_site(case_with_release({{"", box_at(300, 300, 400, 303)}}, 2.0));
+  EXPECT_NEAR(volume_of(strip.site.releases.at("rock").thickness), 600.0, 1e-6);
+  EXPECT_EQ(strip.warnings,
             std::vector<std::string>{"the release of the body rock covers no cell of the DEM, 5 m x 5 m, as a whole. "
                                      "It is spread over partly covered cells, and receives up to 50 % of the given "
                                      "thickness. The volume is preserved. Draw it larger, or resample the DEM"});
-}
-
-TEST(ReleaseTest, WarnsOfATower) {
   config::Case tower = case_with_release({{"", box_at(300, 300, 500, 500)}}, 600.0);
-  EXPECT_EQ(
-      load_site(tower).warnings,
-      std::vector<std::string>{"the release of the body rock is up to 600 m thick and, by its area, 200 m wide: is "
-                               "the thickness in metres?"});
+  EXPECT_EQ(load_site(tower).warnings,
+            std::vector<std::string>{"the release of the body rock is up to 600 m thick and, by its area, 200 m wide: "
+                                     "is the thickness in metres?"});
   tower.bodies["rock"].thickness.number = 90.0;
   EXPECT_EQ(load_site(tower).warnings, std::vector<std::string>{});
 }
@@ -173,16 +166,6 @@ TEST(ReleaseTest, RasterGivesTheThicknessWithinPolygons) {
   EXPECT_NEAR(thickness_at(release, 400.0, 350.0), 15.0, 1e-9);
   EXPECT_EQ(thickness_at(release, 405.0, 350.0), 0.0);
   EXPECT_NEAR(volume_of(release.thickness), 1e4 * 0.5 * (5.25 + 15.25), 1e-3);
-}
-
-TEST(ReleaseTest, SurfaceBeforeTheSlideMinusTheGround) {
-  config::Case parameters = case_with_release({{"", box_at(302.5, 302.5, 402.5, 402.5)}});
-  const auto before = [](double x, double y) { return plane(x, y) + 0.2 * (x - west - 300.0); };
-  parameters.bodies["rock"].thickness = {config::MapValue::From::surface, 0.0,
-                                         geotiff("before.tif", raster_of(before, west, south, 5.0, 201, 161))};
-  const config::Release release = release_of(parameters);
-  EXPECT_NEAR(thickness_at(release, 305.0, 350.0), 1.0, 1e-9);
-  EXPECT_NEAR(thickness_at(release, 400.0, 350.0), 20.0, 1e-9);
 }
 
 TEST(ReleaseTest, RasterAloneIsTheRelease) {
@@ -214,33 +197,11 @@ TEST(ReleaseTest, SurfaceAloneIsTheRelease) {
         std::abs(surface.x_of(column) - west - 400.0) < 51.0 && std::abs(surface.y_of(row) - south - 300.0) < 31.0;
     surface.values[surface.index(column, row)] += inside ? 6.0 : 0.004;  // 0.004 m is within the noise tolerance
   });
-  parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
-  parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+  parameters.bodies["rock"] = surface_body(geotiff("before.tif", surface));
   const config::Release release = release_of(parameters);
   EXPECT_NEAR(volume_of(release.thickness), release.area * 6.0, 1e-6 * release.area);
   EXPECT_NEAR(thickness_at(release, 400.0, 300.0), 6.0, 1e-6);
   EXPECT_GT(release.area, 100.0 * 60.0);
-}
-
-// Every field of a body that may be given by a map, from both kinds of maps.
-TEST(ReleaseTest, SaturationAndIceContentFromMaps) {
-  config::Case parameters = case_with_release({{R"("S":0.2,"ice":0.3)", box_at(300, 300, 500, 400)}});
-  config::Body& body = parameters.bodies["rock"];
-  body.saturation.over = body.ice_content.over = InitialField::Over::attribute;
-  body.saturation.source = "S";
-  body.ice_content.source = "ice";
-  for (const bool raster : {false, true}) {
-    if (raster) {
-      body.saturation.over = InitialField::Over::raster;
-      body.saturation.source =
-          geotiff("saturation.tif", raster_of([](double, double) { return 0.2; }, west, south, 10.0, 100, 80));
-    }
-    const config::Release release = release_of(parameters);
-    for (const auto& [key, value] : {std::pair("saturation", 0.2), std::pair("ice_content", 0.3)}) {
-      const Raster& field = release.fields.at(key);
-      EXPECT_NEAR(field.at(field.columns / 2, field.rows / 2), value, 1e-9) << key;
-    }
-  }
 }
 
 TEST(ReleaseTest, FieldsFromAttributesAndRasters) {
@@ -248,12 +209,10 @@ TEST(ReleaseTest, FieldsFromAttributesAndRasters) {
       case_with_release({{R"("T":-8.0)", box_at(300, 300, 400, 400)}, {R"("T":-2.0)", box_at(400, 300, 500, 400)}});
   config::Body& body = parameters.bodies["rock"];
   body.taper = 30.0;
-  body.temperature.over = InitialField::Over::attribute;
-  body.temperature.source = "t";
-  body.porosity.over = InitialField::Over::raster;
-  body.porosity.source =
-      geotiff("porosity.tif", raster_of([](double x, double) { return 0.1 + 0.001 * (x - west - 250.0); }, west + 240.0,
-                                        south + 240.0, 10.0, 40, 40));
+  body.temperature = field_of(InitialField::Over::attribute, "t");
+  body.porosity =
+      raster_field(geotiff("porosity.tif", raster_of([](double x, double) { return 0.1 + 0.001 * (x - west - 250.0); },
+                                                     west + 240.0, south + 240.0, 10.0, 40, 40)));
   const config::Release release = release_of(parameters);
   const Raster& temperature = release.fields.at("temperature");
   const Raster& porosity = release.fields.at("porosity");

@@ -50,20 +50,25 @@ std::map<std::string, Shape> shapes() {
 }
 
 Raster ground_of(const Shape& shape, double rms, unsigned seed, int columns = 121, int rows = 121) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal(0.0, rms);
-  return raster_of(
-      [&](double x, double y) {
-        return 1500.0 + spacing * shape(x / spacing, y / spacing) + (rms > 0.0 ? spacing * normal(random) : 0.0);
-      },
-      0.0, 0.0, spacing, columns, rows);
+  const Raster clean = raster_of([&](double x, double y) { return 1500.0 + spacing * shape(x / spacing, y / spacing); },
+                                 0.0, 0.0, spacing, columns, rows);
+  return rms > 0.0 ? with_noise(clean, spacing * rms, seed) : clean;
+}
+
+double tilted(double x, double y) { return 0.5 * x - 0.1 * y; }
+
+// Noise of the whole raster [m].
+double noise_of(const Raster& raster) { return noise_rms(raster, span_of_points(raster)); }
+
+config::Roughness auto_roughness(const Raster& raster, double cell, const std::vector<Rectangle>& bodies = {}) {
+  return roughness_of(raster, span_of_points(raster), cell, {.is_auto = true}, bodies);
 }
 
 TEST(RoughnessTest, NoiseIsFoundWithoutBias) {
   double sum = 0.0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const Raster raster = ground_of([](double, double) { return 0.0; }, 0.2, seed, 241, 241);
-    sum += noise_rms(raster, span_of_points(raster)) / spacing / 0.2;
+    sum += noise_of(raster) / spacing / 0.2;
   }
   EXPECT_NEAR(sum / 10.0, 1.0, 0.03);
 }
@@ -73,7 +78,7 @@ TEST(RoughnessTest, NoiseIsFoundOnGroundOfAnyShape) {
     for (const double rms : {0.05, 0.1, 0.2, 0.5}) {
       for (const unsigned seed : {1U, 2U, 3U}) {
         const Raster raster = ground_of(shape, rms, seed);
-        EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, rms, 0.2 * rms) << name << ", seed " << seed;
+        EXPECT_NEAR(noise_of(raster) / spacing, rms, 0.2 * rms) << name << ", seed " << seed;
       }
     }
   }
@@ -85,7 +90,7 @@ TEST(RoughnessTest, NoiseIsFoundInNarrowDomains) {
     const Shape channel = [&](double x, double y) { return std::abs(across(x + 48.3, y, degrees)); };
     for (const unsigned seed : {1U, 2U, 3U}) {
       const Raster raster = ground_of(channel, 0.2, seed, 25, 121);
-      EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.04) << degrees << ", seed " << seed;
+      EXPECT_NEAR(noise_of(raster) / spacing, 0.2, 0.04) << degrees << ", seed " << seed;
     }
   }
 }
@@ -94,7 +99,7 @@ TEST(RoughnessTest, CleanGroundOfAnyShapeIsNotFiltered) {
   for (const auto& [name, shape] : shapes()) {
     const Raster raster = ground_of(shape, 0.0, 0);
     for (const double cell : {0.5 * spacing, spacing, 2.0 * spacing}) {
-      const config::Roughness found = roughness_of(raster, span_of_points(raster), cell, {.is_auto = true});
+      const config::Roughness found = auto_roughness(raster, cell);
       EXPECT_EQ(found.width, 0.0) << name << ", cell " << cell;
       EXPECT_LT(found.apparent_friction, 0.02) << name << ", cell " << cell;
     }
@@ -104,30 +109,30 @@ TEST(RoughnessTest, CleanGroundOfAnyShapeIsNotFiltered) {
 // A rough face above a smooth valley: two bands of noise, along and across.
 TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
   for (const bool is_along : {true, false}) {
-    Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 321);
+    Raster raster = ground_of(tilted, 0.2, 7, 321, 321);
     for_points(raster, [&](int column, int row) {
       if ((is_along ? row : column) > 60) {
         raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
       }
     });
-    EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.04) << is_along;
+    EXPECT_NEAR(noise_of(raster) / spacing, 0.2, 0.04) << is_along;
   }
 }
 
 // A band of noise narrower than a tile is not detected in the domain; a release on it triggers the warning.
 TEST(RoughnessTest, NoiseBelowABodyCounts) {
-  Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 161);
+  Raster raster = ground_of(tilted, 0.2, 7, 321, 161);
   for_points(raster, [&](int column, int row) {
     if (row < 70 || row > 81) {
       raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
     }
   });
   const Rectangle body{50.0 * spacing, 71.0 * spacing, 60.0 * spacing, 80.0 * spacing};
-  EXPECT_EQ(noise_rms(raster, span_of_points(raster)), 0.0);
+  EXPECT_EQ(noise_of(raster), 0.0);
   EXPECT_GT(noise_below_body(raster, body) / spacing, 0.1);
   EXPECT_LT(noise_below_body(raster, body) / spacing, 0.24);
-  EXPECT_EQ(roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}).width, 0.0);
-  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}, {body}).width, 0.7 * spacing);
+  EXPECT_EQ(auto_roughness(raster, spacing).width, 0.0);
+  EXPECT_GT(auto_roughness(raster, spacing, {body}).width, 0.7 * spacing);
 }
 
 // Offsets of whole rows or columns, as found in surveys.
@@ -137,22 +142,18 @@ TEST(RoughnessTest, StripesAreNoise) {
   std::vector<double> offset(121);
   std::generate(offset.begin(), offset.end(), [&] { return normal(random); });
   for (const bool is_along : {true, false}) {
-    Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.0, 0);
+    Raster raster = ground_of(tilted, 0.0, 0);
     for_points(raster, [&](int column, int row) {
       raster.values[raster.index(column, row)] += offset[static_cast<std::size_t>(is_along ? row : column)];
     });
-    EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.07) << is_along;
+    EXPECT_NEAR(noise_of(raster) / spacing, 0.2, 0.07) << is_along;
   }
 }
 
 TEST(RoughnessTest, NoiseCountsWithinTheRectangleAlone) {
   Raster raster = ground_of([](double, double) { return 0.0; }, 0.3, 5);
   const Rectangle quiet{0.0, 0.0, 40.0 * spacing, 120.0 * spacing};
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column <= 40; ++column) {
-      raster.values[raster.index(column, row)] = 1500.0;
-    }
-  }
+  set_points(raster, 0, 0, 41, raster.rows, 1500.0);
   EXPECT_EQ(noise_rms(raster, quiet), 0.0);
   EXPECT_NEAR(noise_rms(raster, {45.0 * spacing, 0.0, 120.0 * spacing, 120.0 * spacing}), 0.3 * spacing, 0.3);
   EXPECT_EQ(noise_rms(raster, {1e6, 1e6, 1e6 + 100.0, 1e6 + 100.0}), 0.0);
@@ -213,11 +214,11 @@ TEST(RoughnessTest, BumpsShorterThanEightPointsCount) {
 // all cells that the points resolve.
 TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredEquallyOnAllCells) {
   const Raster raster = ground_of(waves(7.0, 0.25), 0.0, 0, 241, 241);
-  const double width = roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}).width;
+  const double width = auto_roughness(raster, spacing).width;
   EXPECT_GT(width, spacing);
   EXPECT_LT(width, 2.0 * spacing);
   for (const double cell : {0.5 * spacing, 1.3 * spacing, 2.0 * spacing}) {
-    const config::Roughness found = roughness_of(raster, span_of_points(raster), cell, {.is_auto = true});
+    const config::Roughness found = auto_roughness(raster, cell);
     EXPECT_DOUBLE_EQ(found.width, width);
     EXPECT_LE(found.remaining_slope, largest_slope);
     EXPECT_GT(found.bump_slope, 0.1);
@@ -244,19 +245,8 @@ TEST(RoughnessTest, ApparentFrictionAgreesWithRuns) {
   EXPECT_GT(apparent_friction(0.7), 0.76);
 }
 
-// Plane of plain_case.
-Raster ground_with_noise(double rms, unsigned seed) {
-  Raster rough = ground();
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal(0.0, rms);
-  for (double& height : rough.values) {
-    height += normal(random);
-  }
-  return rough;
-}
-
 TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
-  const Raster rough = ground_with_noise(1.0, 11);
+  const Raster rough = with_noise(ground(), 1.0, 11);
   config::Case parameters = plain_case(rough);
   const SiteAndWarnings loaded = load_site(parameters);
   const config::Roughness found = *loaded.site.roughness;
@@ -295,12 +285,7 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
 TEST(RoughnessTest, PointsAreKeptIfTheDomainIsAlignedWithThem) {
   for (const double distance : {3.3, 2.2, 2.1, 1.1, 4.7, 0.7, 5.0}) {
     for (const int first : {20, 21, 27}) {
-      Raster rough = raster_of(plane, west, south, distance, 101, 91, "EPSG:31287");
-      std::mt19937 random(3);
-      std::normal_distribution<double> normal(0.0, 0.3 * distance);
-      for (double& height : rough.values) {
-        height += normal(random);
-      }
+      const Raster rough = with_noise(raster_of(plane, west, south, distance, 101, 91), 0.3 * distance, 3);
       config::Case parameters = plain_case(rough);
       parameters.grid.cell = distance;
       parameters.grid.min = {rough.x_of(first), rough.y_of(first), 1000.0};
@@ -318,7 +303,7 @@ TEST(RoughnessTest, PointsAreKeptIfTheDomainIsAlignedWithThem) {
 
 // Neither a surface before the release nor the ground it is compared with is smoothed.
 TEST(RoughnessTest, ThicknessBelowASurfaceIsTheDifferenceOfTheFiles) {
-  const Raster rough = ground_with_noise(1.0, 12);
+  const Raster rough = with_noise(ground(), 1.0, 12);
   Raster before = rough;
   for (double& height : before.values) {
     height += 8.0;
