@@ -12,11 +12,6 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 using testing_support::case_from_text;
 
-// The case on the DEM with additional lines below body.slide.thickness, from line 22 on.
-std::string with_body_lines(const std::string& lines) {
-  return changed({{"thickness = 10.0", "thickness = 10.0\n" + lines}}, valid_case_on_dem);
-}
-
 class Maps : public testing::Test {
  protected:
   void SetUp() override { write_map_files(); }
@@ -26,33 +21,6 @@ class Maps : public testing::Test {
   }
   static std::string path_of(const std::string& name) { return (folder_of_this_test() / name).string(); }
 };
-
-TEST_F(Maps, HaveDefaults) {
-  const Case found = read({});
-  EXPECT_EQ(found.terrain.kind, TerrainKind::dem);
-  EXPECT_EQ(found.terrain.file, path_of("dem.tif"));
-  EXPECT_EQ(found.terrain.crs, "");
-  EXPECT_EQ(found.terrain.resample, 0.0);
-  EXPECT_TRUE(found.terrain.smooth.is_auto);
-  EXPECT_EQ(found.grid.leaving, Policy::stop);
-  const Body& slide = found.bodies.at("slide");
-  EXPECT_EQ(slide.shape, BodyShape::release);
-  EXPECT_EQ(slide.release, path_of("release.geojson"));
-  EXPECT_TRUE(slide.polygons.empty());
-  EXPECT_EQ(slide.name_attribute, "name");
-  EXPECT_EQ(slide.thickness.from, MapValue::From::number);
-  EXPECT_EQ(slide.thickness.number, 10.0);
-  EXPECT_EQ(slide.thickness_along, ThicknessAlong::vertical);
-  EXPECT_EQ(slide.placement, Placement::on_top);
-  EXPECT_EQ(slide.taper, 0.0);
-  EXPECT_EQ(slide.largest_volume, 2e8);
-  EXPECT_FALSE(slide.saturation.is_given());
-  EXPECT_FALSE(slide.ice_content.is_given());
-  EXPECT_EQ(found.maps.cell, 0.0);
-  EXPECT_EQ(found.maps.arrival_thickness, 0.1);
-  EXPECT_EQ(found.maps.path, "");
-  EXPECT_TRUE(found.probes.empty());
-}
 
 TEST_F(Maps, AreRead) {
   const Case found = read(
@@ -87,20 +55,13 @@ TEST_F(Maps, AreRead) {
 }
 
 TEST_F(Maps, AreSetOnTheCommandLine) {
-  const fs::path here = fs::current_path();
-  const std::string file = fs::relative(folder_of_this_test() / "map.tif", here).string();
-  const Case found = read(
-      {}, {"grid.leaving=remove", "terrain.crs=EPSG:31287", "terrain.resample=20", "body.slide.polygons=[\"a\"]",
-           "body.slide.thickness={ surface = \"" + file + "\" }", "maps.arrival_thickness=1", "terrain.file=" + file});
-  EXPECT_EQ(found.grid.leaving, Policy::remove);
-  EXPECT_EQ(found.terrain.crs, "EPSG:31287");
-  EXPECT_EQ(found.terrain.resample, 20.0);
-  EXPECT_EQ(found.bodies.at("slide").polygons, std::vector<std::string>{"a"});
+  const std::string file = fs::relative(folder_of_this_test() / "map.tif", fs::current_path()).string();
+  const Case found = read({}, {"body.slide.thickness={ surface = \"" + file + "\" }", "terrain.file=" + file});
   EXPECT_EQ(found.bodies.at("slide").thickness.from, MapValue::From::surface);
-  EXPECT_TRUE(fs::equivalent(found.bodies.at("slide").thickness.source, folder_of_this_test() / "map.tif"));
-  EXPECT_TRUE(fs::path(found.bodies.at("slide").thickness.source).is_absolute());
-  EXPECT_EQ(found.maps.arrival_thickness, 1.0);
-  EXPECT_TRUE(fs::equivalent(found.terrain.file, folder_of_this_test() / "map.tif"));
+  for (const fs::path path : {found.bodies.at("slide").thickness.source, found.terrain.file}) {
+    EXPECT_TRUE(fs::equivalent(path, folder_of_this_test() / "map.tif"));
+    EXPECT_TRUE(path.is_absolute());
+  }
 }
 
 TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
@@ -112,17 +73,15 @@ TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
   EXPECT_TRUE(read({{"[terrain]", "[terrain]\nsmooth = 2.5"}}, {"terrain.smooth=\"auto\""}).terrain.smooth.is_auto);
 }
 
-TEST_F(Maps, SaturationReplacesTheTemperature) {
-  const Case found = case_from_text(with_body_lines("saturation = { depth = [0.0, 9.0], value = [0.3, 0.1] }"));
-  EXPECT_TRUE(found.bodies.at("slide").saturation.is_given());
+TEST_F(Maps, SaturationAndIceContentReplaceTemperatureAndPorosity) {
+  const Case found =
+      read({{"thickness = 10.0",
+             "thickness = 10.0\nsaturation = { depth = [0.0, 9.0], value = [0.3, 0.1] }\nice_content = 0.3"}});
   EXPECT_EQ(found.bodies.at("slide").saturation.at(9.0, 0.0), 0.1);
-  EXPECT_EQ(resolved_toml(found, "inputs").find("\ntemperature ="), std::string::npos) << "it follows";
-}
-
-TEST_F(Maps, IceContentReplacesThePorosity) {
-  const Case found = case_from_text(with_body_lines("ice_content = 0.3"));
   EXPECT_EQ(found.bodies.at("slide").ice_content.at(0.0, 0.0), 0.3);
-  EXPECT_EQ(resolved_toml(found, "inputs").find("\nporosity ="), std::string::npos) << "it follows";
+  for (const char* key : {"\ntemperature =", "\nporosity ="}) {
+    EXPECT_EQ(resolved_toml(found, "inputs").find(key), std::string::npos) << "it follows";
+  }
 }
 
 // A run copies the files listed by named_files, and its case.toml names the copies.

@@ -41,37 +41,32 @@ TEST(Profile, GroundIsLinearBetweenRowsAndExtrapolatedBeyondThem) {
 }
 
 TEST(Profile, MistakesNameTheLine) {
-  const std::string file = "FOLDER/profile.csv:";
   const std::string header = "distance_m,terrain_elevation_m,surface_elevation_m\n";
   const std::string headers = "allowed: distance_m,terrain_elevation_m[,surface_elevation_m]";
-  for (const std::string text : {"", "# only a comment\n"}) {
-    EXPECT_EQ(error_of_profile(text), file + "1: the file holds no header; " + headers + ".");
-  }
-  EXPECT_EQ(error_of_profile("# profile\nx,z\n"),
-            file + "2: the header is 'x,z'; " + headers + ", separated by commas.");
-  EXPECT_EQ(error_of_profile("distance_m\tterrain_elevation_m\n0\t1\n"),
-            file +
-                "1: the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' "
-                "FOLDER/profile.csv.");
-  EXPECT_EQ(error_of_profile(std::string("II*\0\10\0,\0\n", 9)),
-            file +
-                "1: this is not a text file; allowed: columns separated by commas under the header "
-                "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\".");
-  EXPECT_EQ(error_of_profile(header + "0,0,0\n"), file + "2: the profile has 1 rows; a profile needs at least 2.");
-  EXPECT_EQ(error_of_profile(header + "0,0\n"), file + "2: the row has 2 fields; the header has 3.");
   const std::string number = "'; allowed: a finite number with a decimal point.";
-  EXPECT_EQ(error_of_profile(header + "0,0,0\n1,1m,2\n"), file + "3: terrain_elevation_m is '1m" + number);
-  EXPECT_EQ(error_of_profile(header + "0,0,0\n1,,0\n"), file + "3: terrain_elevation_m is '" + number);
-  EXPECT_EQ(error_of_profile(header + "0,0,nan\n"), file + "2: surface_elevation_m is 'nan" + number);
-  EXPECT_EQ(error_of_profile(header + "0,0,0\n5,0,-1\n"),
-            file +
-                "3: surface_elevation_m is -1, below terrain_elevation_m, 0; allowed: the same elevation or a "
-                "higher one.");
-  for (const std::string distance : {"5", "4"}) {
-    EXPECT_EQ(error_of_profile(header + "# a remark\n\n0,0,0\n5,0,0\n" + distance + ",1,1\n"),
-              file + "6: the profile folds back: distance_m is " + distance +
-                  " after 5; allowed: strictly increasing distances. Sort the rows, and leave out overhangs and "
-                  "repeated points.");
+  const std::string folds =
+      "; allowed: strictly increasing distances. Sort the rows, and leave out overhangs and "
+      "repeated points.";
+  const std::vector<std::pair<std::string, std::string>> mistakes{
+      {"", "1: the file holds no header; " + headers + "."},
+      {"# only a comment\n", "1: the file holds no header; " + headers + "."},
+      {"# profile\nx,z\n", "2: the header is 'x,z'; " + headers + ", separated by commas."},
+      {"distance_m\tterrain_elevation_m\n0\t1\n",
+       "1: the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' FOLDER/profile.csv."},
+      {std::string("II*\0\10\0,\0\n", 9),
+       "1: this is not a text file; allowed: columns separated by commas under the header "
+       "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\"."},
+      {header + "0,0,0\n", "2: the profile has 1 rows; a profile needs at least 2."},
+      {header + "0,0\n", "2: the row has 2 fields; the header has 3."},
+      {header + "0,0,0\n1,1m,2\n", "3: terrain_elevation_m is '1m" + number},
+      {header + "0,0,0\n1,,0\n", "3: terrain_elevation_m is '" + number},
+      {header + "0,0,nan\n", "2: surface_elevation_m is 'nan" + number},
+      {header + "0,0,0\n5,0,-1\n",
+       "3: surface_elevation_m is -1, below terrain_elevation_m, 0; allowed: the same elevation or a higher one."},
+      {header + "# a remark\n\n0,0,0\n5,0,0\n5,1,1\n", "6: the profile folds back: distance_m is 5 after 5" + folds},
+      {header + "# a remark\n\n0,0,0\n5,0,0\n4,1,1\n", "6: the profile folds back: distance_m is 4 after 5" + folds}};
+  for (const auto& [text, message] : mistakes) {
+    EXPECT_EQ(error_of_profile(text), "FOLDER/profile.csv:" + message);
   }
 }
 

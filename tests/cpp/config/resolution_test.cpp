@@ -91,10 +91,9 @@ TEST(Resolution, WarningsStateTheFoundAndNeededNumbersAndTheCost) {
 }
 
 TEST(Resolution, ANumberThatIsTooSmallIsRoundedDown) {
-  EXPECT_NE(resolution_warning(body_on(3.99, 1.0, 2, true), "grid.cell").find("(found 3.9; needed 4)"),
-            std::string::npos);
-  EXPECT_NE(resolution_warning(body_on(3.99, 1.0, 1, false), "grid.cell").find("(found 3.9; needed 4)"),
-            std::string::npos);
+  for (const BodyOnCells& body : {body_on(3.99, 1.0, 2, true), body_on(3.99, 1.0, 1, false)}) {
+    EXPECT_NE(resolution_warning(body, "grid.cell").find("(found 3.9; needed 4)"), std::string::npos);
+  }
   EXPECT_EQ(resolution_warning(body_on(4.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
 }
 
@@ -154,17 +153,10 @@ TEST(Resolution, HasTheCellsNeededForItsResults) {
       EXPECT_GE(thickness / quick * particles, fewest_particles * (1.0 - 1e-9));
       EXPECT_LT(thickness / quick * particles, 1.4 * fewest_particles) << "not much finer than needed";
       EXPECT_GE(median / standard, cells_for_maps * (1.0 - 1e-9));
+      EXPECT_EQ(resolution_warning(body_on(median, standard, 2, true), "--cell"), "");
       EXPECT_LT(median / standard, 1.4 * cells_for_maps);
       EXPECT_EQ(cell_of(Resolution::fine, thickness, median, particles), 0.5 * standard);
     }
-  }
-}
-
-TEST(Resolution, StandardCausesNoWarningAboutMaps) {
-  for (const double thickness : {1.3, 10.0, 24.0, 31.0}) {
-    const double cell = cell_of(Resolution::standard, thickness, thickness, 2);
-    const BodyOnCells body{.name = "slide", .thickness = thickness, .cell = cell, .has_maps = true};
-    EXPECT_EQ(resolution_warning(body, "--cell"), "");
   }
 }
 

@@ -1,6 +1,6 @@
 // Substrates in the case file.
 #include "case_messages.hpp"
-#include "config/describe.hpp"
+#include "config/notices.hpp"
 #include "config/strips.hpp"
 #include "physics/basal/laws.hpp"
 
@@ -11,9 +11,8 @@ using namespace case_messages;
 using testing_support::case_from_text;
 
 const std::string coefficient = "friction = \"coefficient\"\nfriction_coefficient = 0.1\n";
-// The added text begins at line 22 of the case.
+
 std::string on_glacier(const std::string& place) { return valid_case + "[substrate.ice]\n" + place + coefficient; }
-std::string on_map(const std::string& place) { return valid_case_on_dem + "[substrate.ice]\n" + place + coefficient; }
 
 TEST(Substrates, HaveSeparateLawsAndAreas) {
   const Case found =
@@ -32,28 +31,13 @@ TEST(Substrates, HaveSeparateLawsAndAreas) {
   EXPECT_EQ(found.basal.friction, "lubricated");
 }
 
-TEST(Substrates, AreReadBackFromTheResolvedCase) {
-  write_map_files();
-  for (const std::string& text :
-       {on_glacier("x_min = 50.0\n"), on_map("outline = \"release.geojson\"\npolygons = [\"a\"]\n"),
-        on_map("raster = \"map.tif\"\ncode = 3\n")}) {
-    const std::string resolved = resolved_toml(case_from_text(text), ".");
-    EXPECT_EQ(resolved_toml(case_from_text(resolved), "."), resolved);
-  }
-  const std::string resolved = resolved_toml(case_from_text(on_glacier("x_min = 50.0\n")), "inputs");
-  EXPECT_NE(resolved.find("\n[substrate.ice]\nx_min = 50.0  # m\nfriction = \"coefficient\"\nlubrication_exponent"),
-            std::string::npos)
-      << resolved;
-  EXPECT_EQ(resolved_toml(case_from_text(valid_case), "inputs").find("substrate"), std::string::npos);
-}
-
 TEST(Substrates, ThatMeetHaveNoGapAndAGapCausesAWarning) {
   const auto with = [](double x_min) {
     return on_glacier("x_max = 50.0\n") + fmt::format("[substrate.snow]\nx_min = {}\n{}", x_min, coefficient);
   };
   EXPECT_TRUE(warnings_of_gaps(case_from_text(with(50.0))).empty());
   EXPECT_EQ(
-      warnings_of_gaps(case_from_text(with(60.0))),
+      notices(case_from_text(with(60.0), {"block.bends=true", "heat.enabled=false"})),
       std::vector<std::string>{
           "between the substrates ice and snow, from x = 50 to 60 m, there is no substrate: [basal] applies there"});
 }

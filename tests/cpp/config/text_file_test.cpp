@@ -10,12 +10,7 @@ namespace thawslide::config {
 namespace {
 
 std::string refusal_of(const std::filesystem::path& file) {
-  try {
-    (void)read_text_file(file);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "none";
+  return case_messages::error_of([&] { return read_text_file(file); });
 }
 
 TEST(TextFile, IsReadUnchanged) {
