@@ -5,10 +5,9 @@
 #include "../verification/bar_collapse.hpp"
 #include "../verification/channel_on_dem.hpp"
 #include "../verification/cylinder_column.hpp"
-#include "../verification/cylinder_section.hpp"
 #include "../verification/incline_energy.hpp"
+#include "../verification/manufactured_vibration.hpp"
 #include "../verification/plane_on_dem.hpp"
-#include "../verification/vibration_choices.hpp"
 #ifdef THAWSLIDE_WITH_GIS
 #include "../verification/rough_dem.hpp"
 #endif

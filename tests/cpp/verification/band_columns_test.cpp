@@ -58,19 +58,15 @@ TEST(BandColumnsVerification, SameHeatPressureAndMotionOnAnyMesh) {
   }
 }
 
-void expect_the_same(const AtEnd& found, const AtEnd& expected) {
-  EXPECT_NEAR(found.velocity, expected.velocity, 0.02 * expected.velocity);
-  EXPECT_NEAR(found.temperature, expected.temperature, 0.02 * expected.temperature);
-  EXPECT_NEAR(found.half_liquefied, expected.half_liquefied, 0.02 * expected.half_liquefied);
-}
-
 // N at nodes is intermittent; the averaging time must not have an effect.
-TEST(BandColumnsVerification, TheAveragingTimeOfTheLoadHasNoEffect) {
-  expect_the_same(slide({fine_column_step, "band.load_time=2.0"}), slide({fine_column_step}));
-}
-
-TEST(BandColumnsVerification, TheTimeStepOfColumnsHasNoEffect) {
-  expect_the_same(slide({}), slide("band.column_step=0.0125"));
+TEST(BandColumnsVerification, TheAveragingTimeOfTheLoadAndTheTimeStepOfColumnsHaveNoEffect) {
+  for (const auto& [sets, reference] : {std::pair(Sets{fine_column_step, "band.load_time=2.0"}, Sets{fine_column_step}),
+                                        std::pair(Sets{}, Sets("band.column_step=0.0125"))}) {
+    const AtEnd found = slide(sets), expected = slide(reference);
+    EXPECT_NEAR(found.velocity, expected.velocity, 0.02 * expected.velocity);
+    EXPECT_NEAR(found.temperature, expected.temperature, 0.02 * expected.temperature);
+    EXPECT_NEAR(found.half_liquefied, expected.half_liquefied, 0.02 * expected.half_liquefied);
+  }
 }
 
 }  // namespace

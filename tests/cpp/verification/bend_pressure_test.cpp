@@ -1,5 +1,4 @@
 // Pressure of a slide on curved ground: the additional pressure is the centripetal force.
-#include <fstream>
 #include <functional>
 
 #include "physics/contact.hpp"
@@ -27,12 +26,11 @@ struct Ground {
 // Points every metre, and a body between two positions with ends normal to the ground.
 config::Case case_of_profile(const std::function<double(double)>& ground, double from, double to,
                              const std::function<double(double)>& surface, const Sets& sets = {}) {
-  std::ofstream csv(folder_of_this_test() / "profile.csv");
-  csv << "distance_m,terrain_elevation_m,surface_elevation_m\n";
+  std::vector<std::vector<double>> points;
   for (double x = -500.0; x < 500.5; x += 1.0) {
-    csv << fmt::format("{},{:.9f},{:.9f}\n", x, ground(x), x > from && x < to ? surface(x) : ground(x));
+    points.push_back({x, ground(x), x > from && x < to ? surface(x) : ground(x)});
   }
-  csv.close();
+  write_profile(points);
   const Sets bend{"time.end=60; time.history_interval=0.05; grid.min=[-450,-20]; grid.max=[450,430]",
                   "material.rock.law=mohr_coulomb; material.rock.friction_angle=35; material.rock.cohesion=1e3",
                   "material.rock.youngs_modulus=1e8; mechanisms.pressurization=false; heat.enabled=false",
@@ -78,11 +76,9 @@ TEST(BendPressure, BlockHasTheCentrifugalLoadOfAnArc) {
 
 TEST(BendPressure, BlockHasItOnlyWithTheKey) {
   const auto pressures = [](const Sets& sets) {
-    std::vector<double> found;
-    for (const auto& row : sim::run_block(slide_into_bend(sets))) {
-      found.push_back(value_of(row, "normal_pressure_Pa") / (density * thickness * gravity));
-    }
-    return found;
+    return each_of(sim::run_block(slide_into_bend(sets)), [](const sim::HistoryRow& row) {
+      return value_of(row, "normal_pressure_Pa") / (density * thickness * gravity);
+    });
   };
   for (const double pressure : pressures({})) {
     EXPECT_GT(pressure, 0.7);
@@ -101,12 +97,9 @@ TEST(BendPressure, IsNeverNegative) {
   const auto rows = sim::run_block(case_of_profile(
       crest, -120.0, -60.0, [&](double x) { return crest(x) + thickness; },
       "block.bends=true; body.slide.velocity=[60,20]; grid.min=[-450,-300]; time.end=2"));
-  double lowest = HUGE_VAL;
-  for (const auto& row : rows) {
-    EXPECT_GE(value_of(row, "normal_pressure_Pa"), 0.0);
-    lowest = std::min(lowest, value_of(row, "normal_pressure_Pa"));
-  }
-  EXPECT_EQ(lowest, 0.0);
+  const std::vector<double> pressures =
+      each_of(rows, [](const sim::HistoryRow& row) { return value_of(row, "normal_pressure_Pa"); });
+  EXPECT_EQ(*std::min_element(pressures.begin(), pressures.end()), 0.0);
 }
 
 // Sum of the particles' weight normal to the ground and their centripetal force, with the ground of the arc below each.

@@ -40,22 +40,22 @@ Errors errors_on(double cell, double start, const Sets& sets, const Exact& exact
   }
   run_until(simulation, simulation.parameters().time.end);
   const auto& particles = simulation.particles();
-  std::vector<double> all, away;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double x = particles.position(p, 0);
-    const double expected = exact(simulation, x, start + simulation.time());
-    all.push_back(particles.temperature(p) - expected);
+  std::vector<double> away;
+  const std::vector<double> all = of_particles(simulation, [&](std::size_t p) {
+    const double x = particles.position(p, 0), expected = exact(simulation, x, start + simulation.time());
     if (std::abs(x - 2.0) > 0.4) {
-      away.push_back(all.back());
+      away.push_back(particles.temperature(p) - expected);
     }
     if (curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
       add_point(*curve, x, particles.temperature(p), expected);
     }
-  }
+    return particles.temperature(p) - expected;
+  });
   return {root_mean_square(all), root_mean_square(away)};
 }
 
 const std::vector<double> cells{0.2, 0.1, 0.05};
+const Curve profile{"x [m]", "temperature [C]", {}, {}, {}};
 
 TEST(Conduction, HalfSpace) {
   Record record("Heat conduction into a half space", "A bar at 2 C whose end is kept at 8 C.",
@@ -65,13 +65,9 @@ TEST(Conduction, HalfSpace) {
     const double diffusivity = physics::conductivity(phases, 0.375, 1.0) / physics::heat_capacity(phases, 0.375, 1.0);
     return physics::exact::half_space_temperature(x, t, 2.0, 8.0, diffusivity);
   };
-  Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
-  std::vector<double> errors;
-  for (const double cell : cells) {
-    errors.push_back(
-        errors_on(cell, 0.0, "heat.boundary.x_min={temperature=8.0}", exact, cell == 0.1 ? &curve : nullptr).all);
-  }
-  record.draw(curve);
+  const std::vector<double> errors = errors_with_curve(record, cells, 0.1, profile, [&](double cell, Curve* curve) {
+    return errors_on(cell, 0.0, "heat.boundary.x_min={temperature=8.0}", exact, curve).all;
+  });
   record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 2.0, 0.1);
 }
 
@@ -99,18 +95,16 @@ TEST(Conduction, TwoLayers) {
                 "cells meet.",
                 "T = Ti + (Tj - Ti) erf(|x|/sqrt(4 a_j t)), Ti from sqrt(k C) of both",
                 "Carslaw and Jaeger 1959, ch. 2");
-  Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
-  std::vector<double> errors, plain_all, plain_away;
-  for (const double cell : cells) {
-    errors.push_back(two_layers_on(cell, "enthalpy", cell == 0.1 ? &curve : nullptr).all);
-  }
+  const std::vector<double> errors = errors_with_curve(record, cells, 0.1, profile, [](double cell, Curve* curve) {
+    return two_layers_on(cell, "enthalpy", curve).all;
+  });
   const std::vector<double> finer{0.1, 0.05, 0.025};
+  std::vector<double> plain_all, plain_away;
   for (const double cell : finer) {
     const Errors plain = two_layers_on(cell, "apparent_capacity", nullptr);
     plain_all.push_back(plain.all);
     plain_away.push_back(plain.away);
   }
-  record.draw(curve);
   record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 1.0, 0.15);
   record.expect_order("cell [m]", finer, "apparent capacity, no subgrid diffusion: rms error [K]", plain_all, 1.5,
                       0.15);
@@ -176,13 +170,10 @@ double manufactured_error(double cell) {
       }
     }
     const auto& particles = simulation.particles();
-    std::vector<double> errors;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      errors.push_back(particles.temperature(p) - Manufactured::temperature(particles.position(p, 0),
-                                                                            particles.position(p, 1),
-                                                                            Manufactured::end));
-    }
-    return root_mean_square(errors);
+    return root_mean_square(of_particles(simulation, [&](std::size_t p) {
+      return particles.temperature(p) -
+             Manufactured::temperature(particles.position(p, 0), particles.position(p, 1), Manufactured::end);
+    }));
   });
 }
 
@@ -192,11 +183,7 @@ TEST(Conduction, ManufacturedWithMelting) {
                 "field exact; capacity, latent heat and conductivity follow the temperature.",
                 "T = -2 + 1.5 cos(pi x/2) cos(pi y/2) exp(-t/4e5)", "method of manufactured solutions, Roache 2002");
   const std::vector<double> sizes{0.25, 0.125, 0.0625};
-  std::vector<double> errors;
-  for (const double cell : sizes) {
-    errors.push_back(manufactured_error(cell));
-  }
-  record.expect_order("cell [m]", sizes, "rms error of temperature [K]", errors, 2.0, 0.1);
+  record.expect_order("cell [m]", sizes, "rms error of temperature [K]", each_of(sizes, manufactured_error), 2.0, 0.1);
 }
 
 }  // namespace

@@ -1,15 +1,9 @@
 // The default viscosity (material.NAME.viscosity_number) damps the noise of sliding blocks on every cell.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "../support/following_plane.hpp"
-#include "../support/record.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-using namespace testing_support;
 
 // Block of 200 m x 60 m, normal to a plane of 30 degrees, that has slid down for 20 s at a friction angle of 20
 // degrees.
@@ -27,16 +21,10 @@ class SlidingBlock {
   // Standard deviation of the particles' velocities [m/s].
   [[nodiscard]] double noise() const {
     const auto& particles = simulation_.particles();
-    Vector<double, 2> sum = Vector<double, 2>::Zero();
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      sum += particles.velocity.get<Vector<double, 2>>(p);
-    }
-    const Vector<double, 2> mean = sum / static_cast<double>(particles.size());
-    double squares = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      squares += (particles.velocity.get<Vector<double, 2>>(p) - mean).squaredNorm();
-    }
-    return std::sqrt(squares / static_cast<double>(particles.size()));
+    const auto velocity = [&](std::size_t p) { return particles.velocity.get<Vector<double, 2>>(p); };
+    const Vector<double, 2> mean(mass_mean(simulation_, [&](auto p) { return velocity(p)[0]; }),
+                                 mass_mean(simulation_, [&](auto p) { return velocity(p)[1]; }));
+    return root_mean_square(of_particles(simulation_, [&](std::size_t p) { return (velocity(p) - mean).norm(); }));
   }
 
  private:

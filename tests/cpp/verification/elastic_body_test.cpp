@@ -115,12 +115,11 @@ const Sets turning{"time.end=1.6; grid.min=[-15,-15]; grid.max=[15,15]",
                    "material.rock.youngs_modulus=2e7; material.rock.poisson_ratio=0.3; body.block.shape=polygon"};
 
 std::string circle(double radius) {
-  std::string corners;
+  std::vector<Vector<double, 2>> corners;
   for (int k = 0; k < 360; ++k) {
-    const double angle = k * pi / 180.0;
-    corners += fmt::format("{}[{:.9f},{:.9f}]", k == 0 ? "" : ",", radius * std::cos(angle), radius * std::sin(angle));
+    corners.emplace_back(radius * std::cos(k * degree), radius * std::sin(k * degree));
   }
-  return "[" + corners + "]";
+  return list_of(corners);
 }
 
 // Error of the stress within 0.7 of the radius after a time, rms relative to the maximum stress.

@@ -1,6 +1,4 @@
 // A profile as a DEM that is uniform across, between smooth walls: a slide moves on it as in 2D.
-#include <fstream>
-
 #include "../support/slide_on_dem.hpp"
 #include "verification.hpp"
 
@@ -21,9 +19,7 @@ constexpr double first_point = -30.0, last_point = 300.0, spacing = 2.5;
 // The body is on the shelf, where both cases fill the same lattice. It starts with an initial velocity.
 Sets sets_of(int dimension) {
   const bool flat = dimension == 2;
-  const auto corner = [&](double x, double y, double z) {
-    return flat ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
-  };
+  const auto corner = [&](double x, double y, double z) { return point_text(dimension, x, y, z); };
   return {fmt::format("case.dimension={}; time.end=7; time.step=0.0015; grid.cell=1.25", dimension),
           fmt::format("grid.min={}; grid.max={}", corner(-25.0, 0.0, -90.0), corner(295.0, 2.5, 40.0)),
           fmt::format("body.column.min={}; body.column.max={}", corner(-20.0, 0.0, 0.0), corner(20.0, 2.5, 7.5)),
@@ -36,12 +32,11 @@ Sets sets_of(int dimension) {
 }
 
 Simulation<2> in_profile() {
-  std::ofstream csv(folder_of_this_test() / "profile.csv");
-  csv << "distance_m,terrain_elevation_m\n";
+  std::vector<std::vector<double>> points;
   for (double x = first_point; x <= last_point; x += spacing) {
-    csv << fmt::format("{:.17g},{:.17g}\n", x, elevation(x));
+    points.push_back({x, elevation(x)});
   }
-  csv.close();
+  write_profile(points);
   return Simulation<2>(published_case("sand", sets_of(2)));
 }
 
@@ -65,8 +60,7 @@ TEST(ExtrudedProfile, MotionIsThatInTwoDimensions) {
   for (double time = 0.5; time < 7.1; time += 0.5) {
     run_until(profile, time);
     run_until(space, time);
-    add_point(curve, time, value_of(history_row(space), "mean_velocity_m_s"),
-              value_of(history_row(profile), "mean_velocity_m_s"));
+    add_point(curve, time, history_value(space, "mean_velocity_m_s"), history_value(profile, "mean_velocity_m_s"));
     largest = std::max(largest, std::abs(curve.computed.back() / curve.exact.back() - 1.0));
   }
   record.expect_near("largest difference of the mean velocities, over that in 2D", largest, 0.0, 0.02);

@@ -14,16 +14,13 @@ constexpr double length = 1200.0, thickness = 30.0;  // of the slab [m]
 Simulation<2> slab_on(const Incline& plane, double gravity_angle, double velocity, const Sets& sets) {
   const double cell = 10.0 / std::cos(plane.angle());
   const auto cells = [&](double size) { return cell * std::ceil(size / cell); };
-  std::string vertices;
-  for (const auto& [along, above] : {std::pair(0.0, 0.0), {length, 0.0}, {length, thickness}, {0.0, thickness}}) {
-    const auto vertex = plane.place(along, above);
-    vertices += fmt::format("{}[{},{}]", vertices.empty() ? "" : ",", vertex[0], vertex[1]);
-  }
+  const std::string vertices = list_of(
+      {plane.place(0.0, 0.0), plane.place(length, 0.0), plane.place(length, thickness), plane.place(0.0, thickness)});
   const auto toe = plane.place(length, 0.0), initial = plane.place(velocity, 0.0);
   return Simulation<2>(published_case(
       "slab", Sets(fmt::format("time.step=; time.stepping=adaptive; grid.cell={}; grid.min=[{},{}]; "
                                "grid.max=[{},{}]; terrain.type=plane; terrain.elevation=0; terrain.slope={}; "
-                               "body.slab.shape=polygon; body.slab.min=; body.slab.max=; body.slab.vertices=[{}]; "
+                               "body.slab.shape=polygon; body.slab.min=; body.slab.max=; body.slab.vertices={}; "
                                "body.slab.velocity=[{},{}]; case.gravity_tilt={}; material.rock.youngs_modulus=5e8; "
                                "mechanics.slope_shear=true",
                                cell, -10.0 * cell, -cells(100.0 - toe[1]), cells(toe[0] + 100.0), 10.0 * cell,

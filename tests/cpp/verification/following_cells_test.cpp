@@ -1,23 +1,15 @@
 // Cells that follow the ground: fields that the mapping must reproduce exactly (mpm/mapping.hpp).
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
 #include <random>
 
-#include "../support/base_cases.hpp"
-#include "../support/record.hpp"
 #include "../support/small_terrain.hpp"
 #include "mpm/particle_pass.hpp"
-#include "sim/simulation.hpp"
 #include "terrain/following_ground.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-using namespace testing_support;
 
 constexpr double cell = 5.0, extent = 100.0;  // [m]
 
@@ -246,26 +238,23 @@ TEST(FollowingCells, RigidTranslationIsKept) {
   Record record("Cells that follow the ground: rigid translation",
                 "A body flies freely above ground with waves of 20 m, two cells high.", "constant velocity, no stress",
                 "motion without force");
-  {
-    std::ofstream file(folder_of_this_test() / "waves.csv");
-    file << "distance_m,terrain_elevation_m\n";
-    for (int k = -40; k <= 240; ++k) {
-      file << fmt::format("{},{}\n", 5.0 * k, 20.0 * std::sin(0.07 * 5.0 * k));
-    }
+  std::vector<std::vector<double>> waves;
+  for (int k = -40; k <= 240; ++k) {
+    waves.push_back({5.0 * k, 20.0 * std::sin(0.07 * 5.0 * k)});
   }
   const std::string flying =
       "time.end=10; time.step=0.004; grid.cell=10; grid.min=[-100,-50]; grid.max=[600,150]; "
       "terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.poisson_ratio=0.2; "
       "body.block.min=[0,60]; body.block.max=[60,100]; body.block.velocity=[40,0]; basal.friction=constant; "
       "basal.friction_angle=0; terrain.file=";
-  sim::Simulation<2> simulation(published_case("free", flying + (folder_of_this_test() / "waves.csv").string()));
+  Simulation<2> simulation(published_case("free", flying + write_profile(waves)));
   run_until(simulation, 2.0);
-  double change = 0.0, stress = 0.0;
   const auto& particles = simulation.particles();
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    change = std::max({change, std::abs(particles.velocity(p, 0) - 40.0), std::abs(particles.velocity(p, 1))});
-    stress = std::max(stress, mpm::full_tensor<2>(particles.stress, p).cwiseAbs().maxCoeff());
-  }
+  const double change = greatest_of(simulation, [&](std::size_t p) {
+    return std::max(std::abs(particles.velocity(p, 0) - 40.0), std::abs(particles.velocity(p, 1)));
+  });
+  const double stress = greatest_of(
+      simulation, [&](std::size_t p) { return mpm::full_tensor<2>(particles.stress, p).cwiseAbs().maxCoeff(); });
   record.expect_near("change of velocity after 500 steps over it", change / 40.0, 0.0, 1e-11);
   record.expect_near("stress over Young's modulus", stress / 2e8, 0.0, 1e-11);
 }

@@ -1,5 +1,4 @@
 // Cells that follow the ground: walls, a cliff, a dam, a dyke and a pool.
-#include <fstream>
 #include <memory>
 #include <random>
 
@@ -9,23 +8,14 @@
 namespace thawslide::verification {
 namespace {
 
-// Profile of the running test, from points of x and height.
-void write_profile(const std::vector<std::pair<double, double>>& points) {
-  std::ofstream file(folder_of_this_test() / "profile.csv");
-  file << "distance_m,terrain_elevation_m\n";
-  for (const auto& [x, z] : points) {
-    file << fmt::format("{},{}\n", x, z);
-  }
-}
-
-// Elastic block of 40 m x 20 m on frictionless ground, given by write_profile; its front is at x = 50 m.
-config::Case sliding_block(const Sets& sets) {
+// Elastic block of 40 m x 20 m on frictionless ground with points of x and height; its front is at x = 50 m.
+config::Case sliding_block(const std::vector<std::vector<double>>& ground, const Sets& sets) {
   const std::string on_profile =
       "time.end=4; time.step=; time.stepping=adaptive; grid.min=[-90,-300]; "
       "grid.max=[350,80]; terrain.type=profile; material.rock.youngs_modulus=2e8; material.rock.viscosity_time=0.01; "
       "body.block.min=[10,0]; body.block.max=[50,20]; body.block.velocity=[20,0]; basal.friction_angle=0; "
       "terrain.file=";
-  return base_case("block", Sets(on_profile + (folder_of_this_test() / "profile.csv").string()) + sets);
+  return base_case("block", Sets(on_profile + write_profile(ground)) + sets);
 }
 
 struct Centre {
@@ -44,9 +34,9 @@ struct Centre {
 // Distance of the front from the foot of a wall, in cells, when the block has lost 1 % of its speed.
 double distance_of_loss(double wall_angle, double foot) {
   constexpr double height = 60.0, cell = 5.0;
-  write_profile(
-      {{-100.0, 0.0}, {foot, 0.0}, {foot + height / std::tan(wall_angle * pi / 180.0), height}, {400.0, height}});
-  Simulation<2> simulation(sliding_block({"grid.steepest=85"}));
+  Simulation<2> simulation(sliding_block(
+      {{-100.0, 0.0}, {foot, 0.0}, {foot + height / std::tan(wall_angle * degree), height}, {400.0, height}},
+      "grid.steepest=85"));
   double edge = 50.0;
   while (Centre(simulation).velocity[0] > 0.99 * 20.0 && simulation.time() < 1.0) {
     simulation.step(simulation.next_step(4.0));
@@ -78,19 +68,18 @@ TEST(FollowingTerrain, BlocksKeepTheirVelocityUpToAWall) {
 std::pair<double, double> crest_and_front(double begin) {
   constexpr double cell = 5.0, height = 30.0;
   const double end = begin + 2.0 * cell;
-  write_profile({{-100.0, 0.0}, {begin, 0.0}, {begin + 0.01, height}, {end - 0.01, height}, {end, 0.0}, {400.0, 0.0}});
-  Simulation<2> simulation(sliding_block({"grid.steepest=85"}));
+  Simulation<2> simulation(sliding_block(
+      {{-100.0, 0.0}, {begin, 0.0}, {begin + 0.01, height}, {end - 0.01, height}, {end, 0.0}, {400.0, 0.0}},
+      "grid.steepest=85"));
   run_until(simulation, 4.0);
   const auto& model = simulation.model();
-  double crest = 0.0, front = 0.0;
+  double crest = 0.0;
   for (double x = begin - cell; x <= end + cell; x += 0.25 * cell) {
     const Vector<double, 1> place(x - model.origin[0]);
     crest = std::max(crest, model.ground->height(place, 0) + model.origin[1]);
   }
-  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-    front = std::max(front, model.origin[0] + simulation.particles().position(p, 0));
-  }
-  return {crest, front};
+  return {crest, greatest_of(simulation,
+                             [&](std::size_t p) { return model.origin[0] + simulation.particles().position(p, 0); })};
 }
 
 TEST(FollowingTerrain, ADamTwoColumnsWideHoldsABlock) {
@@ -117,8 +106,8 @@ TEST(FollowingTerrain, ABlockRestsBehindADyke) {
                 "An elastic block of 10 m x 10 m slides at 20 m/s against a dyke 2 m wide and 40 m high. Another block "
                 "is 1 m behind the dyke, on ground with a friction angle of 30 degrees; cells of 1 m.",
                 "the block behind the dyke is at rest, and the other remains before it", "contact through a dyke");
-  write_profile({{-100.0, 0.0}, {59.0, 0.0}, {59.01, 40.0}, {61.0, 40.0}, {61.01, 0.0}, {400.0, 0.0}});
   Simulation<2> simulation(sliding_block(
+      {{-100.0, 0.0}, {59.0, 0.0}, {59.01, 40.0}, {61.0, 40.0}, {61.01, 0.0}, {400.0, 0.0}},
       "grid.cell=1; grid.steepest=85; basal.friction_angle=30; material.rock.viscosity_time=0.001; "
       "body.block.min=[40.0,0.0]; body.block.max=[50.0,10.0]; body.behind.material=rock; body.behind.min=[62.0,0.0]; "
       "body.behind.max=[72.0,10.0]; body.behind.temperature=-5; "
@@ -142,12 +131,10 @@ TEST(FollowingTerrain, ABlockFliesOverACliff) {
                 "An elastic block leaves a level plateau at 20 m/s over a cliff of 80 degrees, 200 m high.",
                 "parabola of the centre of mass after the rear has left the edge; constant energy", "free fall");
   constexpr double edge = 60.0, height = 200.0;
-  write_profile({{-100.0, 0.0}, {edge, 0.0}, {edge + height / std::tan(80.0 * pi / 180.0), -height}, {400.0, -height}});
-  Simulation<2> simulation(sliding_block({"grid.max=[350.0,80.0]", "grid.steepest=85"}));
-  const auto energy = [&] {
-    const auto row = sim::history_row(simulation);
-    return value_of(row, "kinetic_J") + value_of(row, "potential_J");
-  };
+  Simulation<2> simulation(
+      sliding_block({{-100.0, 0.0}, {edge, 0.0}, {edge + height / std::tan(80.0 * degree), -height}, {400.0, -height}},
+                    "grid.max=[350.0,80.0]; grid.steepest=85"));
+  const auto energy = [&] { return history_value(simulation, "kinetic_J") + history_value(simulation, "potential_J"); };
   while (Centre(simulation).position[0] < edge + 30.0) {
     simulation.step(simulation.next_step(10.0));
   }
@@ -160,22 +147,24 @@ TEST(FollowingTerrain, ABlockFliesOverACliff) {
   record.expect_near("distance of the centre of mass from the parabola after 3 s [m]",
                      (last.position - first.position - passed * first.velocity - fall).norm(), 0.0, 1.0);
   record.expect_near("growth of the volume", volume_growth(simulation), 0.0, 0.01);
-  const double kinetic = value_of(sim::history_row(simulation), "kinetic_J");
+  const double kinetic = history_value(simulation, "kinetic_J");
   record.expect_near("change of energy over the kinetic energy", (energy() - energy_before) / kinetic, 0.0, 0.01);
 }
 
-// Pool without cohesion, 200 m long and up to 40 m deep, on ground given by write_profile from x = 0 to 200 m. The
+// Pool without cohesion, 200 m long and up to 40 m deep, on ground from x = 0 to 200 m. The
 // friction angle [degrees] is that inside and at the base. The nearly incompressible material is in equilibrium.
 class Pool {
  public:
   static constexpr double cell = 10.0, surface = 40.0, length = 200.0;  // [m]
 
-  Pool(const std::vector<std::pair<double, double>>& ground, double friction_angle, const Sets& sets) {
-    write_profile(ground);
-    std::string vertices;
-    for (const auto& [x, z] : ground) {
-      vertices += x >= 0.0 && x <= length && z < surface ? fmt::format("[{},{}],", x, z) : "";
+  Pool(const std::vector<std::vector<double>>& ground, double friction_angle, const Sets& sets) {
+    std::vector<Vector<double, 2>> vertices;
+    for (const auto& point : ground) {
+      if (point[0] >= 0.0 && point[0] <= length && point[1] < surface) {
+        vertices.emplace_back(point[0], point[1]);
+      }
     }
+    vertices.insert(vertices.end(), {{length, surface}, {0.0, surface}});
     const Sets pool =
         "time.end=20; time.step=; time.stepping=adaptive; grid.cell=10; grid.min=[0,-50]; "
         "grid.max=[200,100]; grid.boundary.x_min=roller; grid.boundary.x_max=roller; terrain.type=profile; "
@@ -183,10 +172,10 @@ class Pool {
         "material.rock.viscosity_time=; material.rock.cohesion=0; body.block.shape=polygon; body.block.min=; "
         "body.block.max=";
     simulation_ = std::make_unique<Simulation<2>>(base_case(
-        "block", pool + sets +
-                     Sets(fmt::format("terrain.file={}; body.block.vertices=[{}[200,40],[0,40]]",
-                                      (folder_of_this_test() / "profile.csv").string(), vertices)) +
-                     Sets(fmt::format("material.rock.friction_angle={0}; basal.friction_angle={0}", friction_angle))));
+        "block",
+        pool + sets +
+            Sets(fmt::format("terrain.file={}; body.block.vertices={}", write_profile(ground), list_of(vertices))) +
+            Sets(fmt::format("material.rock.friction_angle={0}; basal.friction_angle={0}", friction_angle))));
   }
 
   // Greatest mean speed of the particles until `time` [s].
@@ -236,11 +225,11 @@ TEST(FollowingTerrain, APoolRemainsAtRest) {
       "no motion; pressure rho g h", "hydrostatics");
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 0.1 * Pool::cell);
-  std::vector<std::pair<double, double>> rough;
+  std::vector<std::vector<double>> rough;
   for (double x = -50.0; x <= 250.0; x += 0.5 * Pool::cell) {
-    rough.emplace_back(x, noise(random));
+    rough.push_back({x, noise(random)});
   }
-  const std::vector<std::pair<double, double>> valley{
+  const std::vector<std::vector<double>> valley{
       {-100.0, 80.0}, {0.0, 40.0}, {100.0, 0.0}, {200.0, 40.0}, {300.0, 80.0}};
   for (const auto& [friction_angle, transfer] :
        {std::pair(0.0, "apic"), std::pair(20.0, "apic"), std::pair(20.0, "flip")}) {

@@ -38,14 +38,6 @@ std::vector<Vector<double, 2>> cap_on(const Incline& base) {
   return vertices;
 }
 
-std::string parabola() {
-  std::string vertices;
-  for (const auto& vertex : cap_on({0.0})) {
-    vertices += fmt::format("{}[{},{}]", vertices.empty() ? "" : ",", vertex[0], vertex[1]);
-  }
-  return "body.block.vertices=[" + vertices + "]";
-}
-
 TEST(ParabolicPile, SpreadingAgreesWithSavageAndHutter) {
   Record record("Parabolic pile that spreads across its direction of travel",
                 "A parabolic pile without cohesion (35 degrees), 20 m high and 400 m long, spreads on a base without "
@@ -53,7 +45,8 @@ TEST(ParabolicPile, SpreadingAgreesWithSavageAndHutter) {
                 "standard deviation of the mass g/sqrt(5): g'' = 2 K g_z H L/g^2, K = tan^2(45 deg - phi/2)",
                 "Savage and Hutter 1989");
   for (const double cell : {10.0, 5.0}) {
-    const Sets of_cell{fmt::format("grid.cell={}; time.step={}", cell, 4.5e-3 * cell), parabola()};
+    const Sets of_cell{fmt::format("grid.cell={}; time.step={}", cell, 4.5e-3 * cell),
+                       "body.block.vertices=" + list_of(cap_on({0.0}))};
     Simulation<2> simulation(base_case("block", column_mass + of_cell));
     for (const double time : {10.0, 20.0}) {
       run_until(simulation, time);

@@ -58,17 +58,15 @@ double error_on(double cell, Curve* curve) {
       set(particles, p, particles.pore_pressure(p) + dt * source);
     }
   }
-  std::vector<double> errors;
   const auto& particles = std::as_const(simulation).particles();
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double x = particles.position(p, 0), y = particles.position(p, 1);
+  return root_mean_square(of_particles(std::as_const(simulation), [&](std::size_t p) {
+    const double x = particles.position(p, 0), y = particles.position(p, 1), found = particles.pore_pressure(p) / 1e6;
     const double expected = Manufactured::pressure(x, y, 400.0) / 1e6;
-    errors.push_back(particles.pore_pressure(p) / 1e6 - expected);
     if (curve != nullptr && x < 0.5 * cell) {
-      add_point(*curve, y, particles.pore_pressure(p) / 1e6, expected);
+      add_point(*curve, y, found, expected);
     }
-  }
-  return root_mean_square(errors);
+    return found - expected;
+  }));
 }
 
 TEST(PorePressure, Manufactured) {
@@ -77,12 +75,8 @@ TEST(PorePressure, Manufactured) {
                 "source that makes a given pressure field exact.",
                 "P = A (2 + cos pi x) cos^2(pi y/2) exp(-t/500)", "method of manufactured solutions, Roache 2002");
   const std::vector<double> cells{0.1, 0.05, 0.025};
-  Curve curve{"y [m]", "pressure at x = 0 [MPa]", {}, {}, {}};
-  std::vector<double> errors;
-  for (const double cell : cells) {
-    errors.push_back(error_on(cell, cell == 0.1 ? &curve : nullptr));
-  }
-  record.draw(curve);
+  const std::vector<double> errors =
+      errors_with_curve(record, cells, 0.1, {"y [m]", "pressure at x = 0 [MPa]", {}, {}, {}}, error_on);
   record.expect_order("cell [m]", cells, "rms error of pressure [MPa]", errors, 2.0, 0.1);
 }
 
@@ -97,23 +91,20 @@ TEST(UndrainedHeating, PressureRisesInProportionToTemperature) {
                 "P - P0 = K_L {beta_S I + (beta_L - beta_S)(T - T0)}, I = integral of dT/n",
                 "Eqs. 6 and 8, integrated");
   const std::vector<double> steps{8.0, 4.0, 2.0, 1.0};
-  std::vector<double> errors;
-  for (const double dt : steps) {
+  const std::vector<double> errors = each_of(steps, [](double dt) {
     const Sets heated{"phases.rock_expansion=3e-3; pressure.seepage=false; time.end=8000",
                       fmt::format("heat.boundary.y_min={{flux=400.0}}; time.step={}", dt)};
     Simulation<2> simulation(published_case("column", column + heated));
     run_until(simulation, 8000.0);
-    const auto& particles = simulation.particles();
+    const auto& particles = std::as_const(simulation).particles();
     const auto& phases = simulation.model().motion.phases;
-    double worst = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
+    return greatest_of(std::as_const(simulation), [&](std::size_t p) {
       const double expected =
           physics::exact::undrained_pressure_rise(particles.temperature(p) - 1.0, 0.375, phases.water_bulk_modulus,
                                                   phases.rock_expansion, phases.water_expansion);
-      worst = std::max(worst, std::abs(particles.liquid_pressure(p) - expected) / 1e6);
-    }
-    errors.push_back(worst);
-  }
+      return std::abs(particles.liquid_pressure(p) - expected) / 1e6;
+    });
+  });
   record.expect_order("step [s]", steps, "largest error of pressure [MPa]", errors, 1.0, 0.05);
 }
 
@@ -121,9 +112,8 @@ TEST(Consolidation, OfAMeltedColumn) {
   Record record("Diffusion of pore pressure", "A melted column at 1 MPa, drained at its top, on a sealed base.",
                 "sum of sin(M z/H) exp(-M^2 D t/H^2)", "Terzaghi 1943");
   const std::vector<double> cells{0.2, 0.1, 0.05, 0.025};
-  std::vector<double> errors;
-  Curve curve{"depth below the top [m]", "pressure [MPa]", {}, {}, {}};
-  for (const double cell : cells) {
+  const Curve profile{"depth below the top [m]", "pressure [MPa]", {}, {}, {}};
+  const std::vector<double> errors = errors_with_curve(record, cells, 0.1, profile, [](double cell, Curve* curve) {
     const Sets of_cell{fmt::format("grid.cell={0}; body.column.max=[{0},1]", cell),
                        fmt::format("time.step={}", 4.0 * cell * cell / 0.01),
                        "material.soil.hydraulic_conductivity=1e-9"};
@@ -135,18 +125,15 @@ TEST(Consolidation, OfAMeltedColumn) {
     run_until(simulation, 700.0);
     const auto& particles = std::as_const(simulation).particles();  // reread: a device may have modified them
     const double diffusivity = physics::hydraulic_diffusivity(simulation.model().motion.phases, 0.375, 1.0, 1e-9);
-    std::vector<double> differences;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double depth = 1.0 - particles.position(p, 1);
+    return root_mean_square(of_particles(std::as_const(simulation), [&](std::size_t p) {
+      const double depth = 1.0 - particles.position(p, 1), found = particles.pore_pressure(p) / 1e6;
       const double exact = physics::exact::consolidation_pressure(depth, 1.0, diffusivity, 700.0);
-      differences.push_back(particles.pore_pressure(p) / 1e6 - exact);
-      if (cell == 0.1 && particles.position(p, 0) < 0.5 * cell) {
-        add_point(curve, depth, particles.pore_pressure(p) / 1e6, exact);
+      if (curve != nullptr && particles.position(p, 0) < 0.5 * cell) {
+        add_point(*curve, depth, found, exact);
       }
-    }
-    errors.push_back(root_mean_square(differences));
-  }
-  record.draw(curve);
+      return found - exact;
+    }));
+  });
   record.expect_order("cell [m]", cells, "rms error of pressure [MPa]", errors, 1.0, 0.1);
   record.explain(
       "The pressure of the free surface acts on all particles in the upper half of the top cell. The drained boundary "

@@ -55,13 +55,8 @@ const std::vector<double> sizes{10.0, 5.0, 2.5};  // cells over 1e4 [mm]
 
 // Errors on cells of these sizes; plots the strength on the middle one.
 std::vector<double> errors_on_cells(Record& record, const Sets& sets) {
-  std::vector<double> errors;
-  Curve curve{"slip [m]", "strength over that at the start", {}, {}, {}};
-  for (const double size : sizes) {
-    errors.push_back(error_on(10.0 * size, sets, size == 5.0 ? &curve : nullptr));
-  }
-  record.draw(curve);
-  return errors;
+  return errors_with_curve(record, sizes, 5.0, {"slip [m]", "strength over that at the start", {}, {}, {}},
+                           [&](double size, Curve* curve) { return error_on(10.0 * size, sets, curve); });
 }
 
 TEST(SlipOnPlane, StrengthAgreesWithRice) {

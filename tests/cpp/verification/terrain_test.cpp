@@ -1,6 +1,4 @@
 // Slopes oblique to the grid, straight and curved.
-#include <fstream>
-
 #include "../exact/motion.hpp"
 #include "verification.hpp"
 
@@ -12,15 +10,15 @@ namespace {
 config::Case slab_on_plane(double ground) {
   const double c = std::cos(ground * degree), s = std::sin(ground * degree);
   const auto corner = [&](double along, double up) {
-    return fmt::format("[{:.9f}, {:.9f}]", along * c + up * s, -along * s + up * c);
+    return Vector<double, 2>(along * c + up * s, -along * s + up * c);
   };
   return published_case(
-      "block", {fmt::format("case.gravity_tilt={}; terrain.type=plane; terrain.slope={}", 35.0 - ground, ground),
-                "time.end=2; time.step=; time.stepping=adaptive; grid.cell=2.5; grid.min=[-20,-100]; grid.max=[150,50]",
-                "material.rock.viscosity_time=0.01; body.block.shape=polygon; mechanics.slope_shear=true",
-                fmt::format("body.block.vertices=[{}, {}, {}, {}]", corner(0.0, 0.0), corner(60.0, 0.0),
-                            corner(60.0, 20.0), corner(0.0, 20.0)),
-                "heat.enabled=true; pressure.enabled=true"});
+      "block",
+      {fmt::format("case.gravity_tilt={}; terrain.type=plane; terrain.slope={}", 35.0 - ground, ground),
+       "time.end=2; time.step=; time.stepping=adaptive; grid.cell=2.5; grid.min=[-20,-100]; grid.max=[150,50]",
+       "material.rock.viscosity_time=0.01; body.block.shape=polygon; mechanics.slope_shear=true",
+       "body.block.vertices=" + list_of({corner(0.0, 0.0), corner(60.0, 0.0), corner(60.0, 20.0), corner(0.0, 20.0)}),
+       "heat.enabled=true; pressure.enabled=true"});
 }
 
 TEST(TiltedTerrain, MotionIsIndependentOfTheAngleToTheGrid) {
@@ -47,15 +45,14 @@ constexpr double radius = 400.0;
 
 // Writes a circular arc with its lowest point at x = 0 and a body 10 m thick on it between two angles.
 void write_arc() {
-  std::ofstream csv(folder_of_this_test() / "profile.csv");
-  csv << "distance_m,terrain_elevation_m,surface_elevation_m\n";
+  std::vector<std::vector<double>> points;
   for (double angle = -60.0; angle < 30.01; angle += 0.25) {
     const double x = radius * std::sin(angle * degree), y = radius * (1.0 - std::cos(angle * degree));
     const bool body = angle > -43.1 && angle < -36.9;
     const double inner = radius - 10.0;
-    const double surface = body ? radius - std::sqrt(inner * inner - x * x) : y;
-    csv << fmt::format("{:.9f},{:.9f},{:.9f}\n", x, y, surface);
+    points.push_back({x, y, body ? radius - std::sqrt(inner * inner - x * x) : y});
   }
+  write_profile(points);
 }
 
 // Mass, position and motion of the slide about the centre of the arc.

@@ -1,10 +1,13 @@
 // Headers and names that all verification tests share.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -27,7 +30,39 @@ inline void add_point(Curve& curve, double x, double computed, double exact) {
   curve.exact.push_back(exact);
 }
 
-// Mass average of of(p) over the particles p; 0 without particles.
+// of(size) for each size, such as the error on cells of that size.
+template <class Size, class Of>
+std::vector<double> each_of(const std::vector<Size>& sizes, const Of& of) {
+  std::vector<double> found;
+  std::transform(sizes.begin(), sizes.end(), std::back_inserter(found), of);
+  return found;
+}
+
+// Errors of error_on(cell, curve) on each cell; draws the curve of one of the cells.
+template <class ErrorOn>
+std::vector<double> errors_with_curve(Record& record, const std::vector<double>& cells, double drawn, Curve curve,
+                                      const ErrorOn& error_on) {
+  const std::vector<double> errors =
+      each_of(cells, [&](double cell) { return error_on(cell, cell == drawn ? &curve : nullptr); });
+  record.draw(curve);
+  return errors;
+}
+
+// of(p) for each particle p; below, the greatest of them and their mass average.
+template <class Run, class Of>
+std::vector<double> of_particles(const Run& run, const Of& of) {
+  std::vector<double> found(run.particles().size());
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    found[p] = of(p);
+  }
+  return found;
+}
+template <class Run, class Of>
+double greatest_of(const Run& run, const Of& of) {
+  const std::vector<double> found = of_particles(run, of);
+  return *std::max_element(found.begin(), found.end());
+}
+// 0 without particles.
 template <class Run, class Of>
 double mass_mean(const Run& run, const Of& of) {
   const auto& particles = run.particles();
@@ -37,6 +72,37 @@ double mass_mean(const Run& run, const Of& of) {
     sum += particles.mass(p) * of(p);
   }
   return mass > 0.0 ? sum / mass : 0.0;
+}
+
+// Value of the history at present.
+template <class Run>
+double history_value(const Run& run, const std::string& column) {
+  return value_of(sim::history_row(run), column);
+}
+
+// TOML of a point in a plane or in space: z is up in both.
+inline std::string point_text(int dimension, double x, double y, double z) {
+  return dimension == 3 ? fmt::format("[{}, {}, {}]", x, y, z) : fmt::format("[{}, {}]", x, z);
+}
+
+// TOML of vertices.
+inline std::string list_of(const std::vector<Vector<double, 2>>& vertices) {
+  std::string text;
+  for (const auto& vertex : vertices) {
+    text += fmt::format("{}[{:.9f},{:.9f}]", text.empty() ? "" : ",", vertex[0], vertex[1]);
+  }
+  return "[" + text + "]";
+}
+
+// profile.csv in the folder of the test, from points of x, height of the ground and, if there is a body, its surface.
+inline std::string write_profile(const std::vector<std::vector<double>>& points) {
+  const auto file = folder_of_this_test() / "profile.csv";
+  std::ofstream csv(file);
+  csv << "distance_m,terrain_elevation_m" << (points.at(0).size() == 3 ? ",surface_elevation_m\n" : "\n");
+  for (const auto& point : points) {
+    csv << fmt::format("{:.17g}\n", fmt::join(point, ","));
+  }
+  return file.string();
 }
 
 }  // namespace thawslide::verification

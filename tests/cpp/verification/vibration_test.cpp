@@ -1,6 +1,6 @@
 // Manufactured momentum balance: a square that vibrates along its axes, with each shape function and transfer.
+#include "manufactured_vibration.hpp"
 #include "verification.hpp"
-#include "vibration_choices.hpp"
 
 namespace thawslide::verification {
 namespace {

@@ -60,14 +60,14 @@ TEST(WideningSection, SpreadsAsAParaboloidAboutItsAxis) {
                 "The section has a constant width, or the width x, which is a sector about the axis.",
                 "mean x over that at the start: s(t) with s'' = 2 g h0/(R0^2 s^(n + 1)), n = 1 and 2", "Thacker 1981");
   ASSERT_NEAR(spread(2, rate, time), std::sqrt(1.0 + rate * time * time), 1e-6);
-  std::string vertices = "[0.0, 0.0]";
+  std::vector<Vector<double, 2>> vertices{{0.0, 0.0}};
   for (int k = 20; k >= 0; --k) {
     const double x = 2.5 * k;
-    vertices += fmt::format(", [{}, {}]", x, depth * (1.0 - x * x / (radius * radius)));
+    vertices.emplace_back(x, depth * (1.0 - x * x / (radius * radius)));
   }
   for (const auto& [n, width] : {std::pair(1, "0.0"), std::pair(2, "{ x = [0.5, 1000.0], value = [0.5, 1000.0] }")}) {
     const Sets paraboloid{fmt::format("case.width={}; body.column.shape=polygon", width),
-                          fmt::format("body.column.vertices=[{}]; grid.boundary.x_min=roller", vertices)};
+                          "grid.boundary.x_min=roller; body.column.vertices=" + list_of(vertices)};
     Simulation<2> simulation(published_case("sand", fluid + paraboloid));
     const auto mean_x = [&] {
       return mass_mean(simulation, [&](std::size_t p) { return simulation.particles().position(p, 0); });
