@@ -88,16 +88,27 @@ std::pair<int, double> at(const Seeded& found, double x, double y) {
   return {*column->second.bodies.begin(), column->second.volume / (spacing * spacing)};
 }
 
-// Every column within the box [from, to) belongs to the body and has the thickness, except for the rounding of volumes.
-void expect_filled(const Seeded& found, std::array<double, 2> from, std::array<double, 2> to, int body,
-                   double thickness, double tolerance) {
+// Every column within the box [from, to) belongs to body_at(x, y), and has its thickness except for the rounding of
+// volumes. Returns the number of columns of ice.
+template <class BodyAt>
+int expect_columns(const Seeded& found, std::array<double, 2> from, std::array<double, 2> to, const BodyAt& body_at,
+                   const std::array<double, 2>& thickness, const std::array<double, 2>& tolerance) {
+  int of_ice = 0;
   for (double y = from[1] + 0.5 * spacing; y < to[1]; y += spacing) {
     for (double x = from[0] + 0.5 * spacing; x < to[0]; x += spacing) {
       const auto [there, found_thickness] = at(found, x, y);
-      EXPECT_EQ(there, body) << x << ", " << y;
-      EXPECT_NEAR(found_thickness, thickness, tolerance * thickness) << x << ", " << y;
+      const auto body = static_cast<std::size_t>(body_at(x, y));
+      EXPECT_EQ(there, static_cast<int>(body)) << x << ", " << y;
+      EXPECT_NEAR(found_thickness, thickness[body], tolerance[body] * thickness[body]) << x << ", " << y;
+      of_ice += body == 0 ? 1 : 0;
     }
   }
+  return of_ice;
+}
+
+void expect_filled(const Seeded& found, std::array<double, 2> from, std::array<double, 2> to, int body,
+                   double thickness, double tolerance) {
+  expect_columns(found, from, to, [=](double, double) { return body; }, {thickness, thickness}, {tolerance, tolerance});
 }
 
 constexpr int ice = 0, rock = 1;
@@ -128,21 +139,12 @@ TEST(TouchingTest, AnObliqueEdge) {
   EXPECT_NEAR(found.volumes[ice], 7500.0 * 20.0, 1e-6);
   EXPECT_NEAR(found.volumes[rock], 10500.0 * 10.0, 1e-6);
   EXPECT_GE(found.nearest, spacing * (1.0 - 1e-9));
-  for (double y = 306.25; y < 395.0; y += spacing) {
-    const double edge = 380.0 + 0.5 * (y - 300.0);
-    for (double x = 306.25; x < 475.0; x += spacing) {
-      const auto [body, thickness] = at(found, x, y);
-      EXPECT_EQ(body, x < edge ? rock : ice) << x << ", " << y;
-      EXPECT_NEAR(thickness, x < edge ? 10.0 : 20.0, x < edge ? 0.1 : 0.2) << x << ", " << y;
-    }
-  }
+  const auto body_at = [](double x, double y) { return x < 380.0 + 0.5 * (y - 300.0) ? rock : ice; };
+  expect_columns(found, {305, 305}, {475, 395}, body_at, {20.0, 10.0}, {0.01, 0.01});
 }
 
 TEST(TouchingTest, OneFillsAHoleOfTheOther) {
-  const std::string outer = polygon_json(
-      {{west + 300, south + 300}, {west + 400, south + 300}, {west + 400, south + 400}, {west + 300, south + 400}});
-  const std::string inner = polygon_json(
-      {{west + 332, south + 333}, {west + 352, south + 333}, {west + 352, south + 363}, {west + 332, south + 363}});
+  const std::string outer = box_at(300, 300, 400, 400), inner = box_at(332, 333, 352, 363);
   // The ring of the inner body is the hole of the outer one.
   const std::string ring = inner.substr(inner.find("[[") + 1, inner.rfind("]}") - inner.find("[[") - 1);
   const std::string with_hole = outer.substr(0, outer.rfind("]}")) + "," + ring + "]}";
@@ -150,17 +152,8 @@ TEST(TouchingTest, OneFillsAHoleOfTheOther) {
   EXPECT_NEAR(found.volumes[ice], 20.0 * 30.0 * 5.0, 1e-6);
   EXPECT_NEAR(found.volumes[rock], (1e4 - 600.0) * 25.0, 1e-6);
   EXPECT_NEAR(found.nearest, spacing, 1e-9);
-  int count = 0;
-  for (double y = 306.25; y < 395.0; y += spacing) {
-    for (double x = 306.25; x < 395.0; x += spacing) {
-      const bool is_inside = x > 332.0 && x < 352.0 && y > 333.0 && y < 363.0;
-      const auto [body, thickness] = at(found, x, y);
-      EXPECT_EQ(body, is_inside ? ice : rock) << x << ", " << y;
-      EXPECT_NEAR(thickness, is_inside ? 5.0 : 25.0, is_inside ? 0.1 : 0.5) << x << ", " << y;
-      count += is_inside ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(count, 8 * 12);
+  const auto body_at = [](double x, double y) { return x > 332 && x < 352 && y > 333 && y < 363 ? ice : rock; };
+  EXPECT_EQ(expect_columns(found, {305, 305}, {395, 395}, body_at, {5.0, 25.0}, {0.02, 0.02}), 8 * 12);
 }
 
 // Cut out with tapers: the outer edges are inclined, the shared one is not.

@@ -79,14 +79,6 @@ TEST_F(RunFiles, LinksAreRemovedAndTheirTargetsKept) {
   EXPECT_EQ(content(folder_ / "elsewhere" / "max_speed.tif"), "mine");
 }
 
-TEST_F(RunFiles, FoldersAndNamesAloneAreNotARun) {
-  put_all("snapshots/photo.jpg maps/alps.tif case.toml history.csv");
-  const std::vector<std::string> before = left();
-  EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
-            "the output folder " + run().string() + " contains other files, and no run. Specify another --output.");
-  EXPECT_EQ(left(), before);
-}
-
 TEST_F(RunFiles, ARunJsonOfAnotherProgramIsNotARun) {
   for (const char* text : {"", "{", "[]", "3", R"({"program": 3})", R"({"program": "jogger"})", R"({"km": 12})"}) {
     put(run() / "run.json", text);

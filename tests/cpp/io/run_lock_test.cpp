@@ -88,6 +88,13 @@ TEST_F(RunLockTest, MovesWithItsOwner) {
 
 TEST_F(RunLockTest, AMissingFolderIsReported) { EXPECT_THROW(RunLock{folder_ / "none"}, WriteError); }
 
+// As in a lock file.
+std::string name_of(pid_t process) {
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  return fmt::format("process {} on {}", process, host);
+}
+
 // Another process, which waits until it is killed.
 class Waiting {
  public:
@@ -107,11 +114,7 @@ class Waiting {
       waitpid(std::exchange(number_, 0), nullptr, 0);
     }
   }
-  [[nodiscard]] std::string name() const {
-    char host[256] = "";
-    gethostname(host, sizeof host - 1);
-    return fmt::format("process {} on {}", number_, host);
-  }
+  [[nodiscard]] std::string name() const { return name_of(number_); }
 
  private:
   pid_t number_;
@@ -176,9 +179,7 @@ TEST_F(WithoutLocks, AProcessThatEndsRemovesItsName) {
 }
 
 TEST_F(WithoutLocks, ANameWithTheOwnNumberIsOfAnEarlierProcess) {
-  char host[256] = "";
-  gethostname(host, sizeof host - 1);
-  write(fmt::format("process {} on {}", getpid(), host));
+  write(name_of(getpid()));
   EXPECT_EQ(refusal(), "");
 }
 
