@@ -2,31 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
+#include "../support/small_terrain.hpp"
 #include "base/nearest_known.hpp"
 #include "base/raster_sampling.hpp"
 
 namespace thawslide {
 namespace {
 
-constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
+using testing_support::no_data;
+using testing_support::raster;
 
 double plane(double x, double y) { return 100.0 + 0.3 * x - 0.7 * y; }
 
-Raster plane_raster() {
-  Raster raster;
-  raster.cell_x = raster.cell_y = 5.0;
-  raster.columns = 5;
-  raster.rows = 4;
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      raster.values.push_back(plane(raster.x_of(column), raster.y_of(row)));
-    }
-  }
-  return raster;
-}
+Raster plane_raster() { return raster(0.0, 0.0, 5.0, 5, 4, plane); }
 
 TEST(Bilinear, IsExactOnAPlaneUpToTheOutermostPoints) {
   const Raster raster = plane_raster();
@@ -67,15 +57,9 @@ TEST(Bilinear, AThicknessKeepsItsVolumeOnFinerPoints) {
 TEST(FillFromNearestKnown, UsesTheNearestPoint) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(0.0, 1.0);
-  Raster points;
-  points.cell_x = 5.0;
+  Raster points =
+      raster(0.0, 0.0, 5.0, 31, 23, [&](double, double) { return number(random) > 0.93 ? number(random) : no_data; });
   points.cell_y = 3.0;
-  points.columns = 31;
-  points.rows = 23;
-  for (int k = 0; k < points.columns * points.rows; ++k) {
-    const bool known = number(random) > 0.93;
-    points.values.push_back(known ? number(random) : no_data);
-  }
   Raster filled = points;
   fill_from_nearest_known(filled);
   for (int row = 0; row < points.rows; ++row) {

@@ -7,37 +7,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/small_terrain.hpp"
 #include "config/section_proposal.hpp"
 #include "sim/between_steps/monitor.hpp"
 
 namespace thawslide::config {
 namespace {
 
+using testing_support::raster;
+
 constexpr double cell = 10.0;  // of the DEM [m]
 
 // 60 columns of points, the first at 1000, 2000, of a plane that falls to the east.
 Raster dem_points(double slope = 0.8, int rows = 40) {
-  Raster dem;
-  dem.x = 1000.0;
-  dem.y = 2000.0;
-  dem.cell_x = dem.cell_y = cell;
-  dem.columns = 60;
-  dem.rows = rows;
-  for (int k = 0; k < dem.columns * dem.rows; ++k) {
-    dem.values.push_back(500.0 - slope * cell * (k % dem.columns));
-  }
-  return dem;
+  return raster(1000.0, 2000.0, cell, 60, rows, [=](double x, double) { return 500.0 - slope * (x - 1000.0); });
 }
 
-// A release of 10 x 8 points.
+// A release of 10 x 8 points; thickness of a point by its row.
+Raster release_of_rows(int first_column, int first_row, int rows, const std::function<double(int)>& thickness) {
+  return raster(1000.0, 2000.0, cell, 60, rows, [&](double x, double y) {
+    const auto column = static_cast<int>(std::lround((x - 1000.0) / cell)) - first_column;
+    const auto row = static_cast<int>(std::lround((y - 2000.0) / cell)) - first_row;
+    return column >= 0 && column < 10 && row >= 0 && row < 8 ? thickness(row) : 0.0;
+  });
+}
 Raster release_at(int first_column, int first_row, double thickness, int rows = 40) {
-  Raster raster = dem_points(0.0, rows).filled(0.0);
-  for (int row = first_row; row < first_row + 8; ++row) {
-    for (int column = first_column; column < first_column + 10; ++column) {
-      raster.values[raster.index(column, row)] = thickness;
-    }
-  }
-  return raster;
+  return release_of_rows(first_column, first_row, rows, [=](int) { return thickness; });
 }
 
 TEST(CaseProposal, ContainsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
@@ -58,12 +53,7 @@ TEST(CaseProposal, ContainsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
 
 // Half of 80 points are 4 m thick, the others 20 m: five sixths of the volume are in the thicker half.
 TEST(CaseProposal, TheCellFollowsTheVolumeAndTheMedianTheArea) {
-  Raster release = release_at(20, 15, 20.0);
-  for (int row = 15; row < 19; ++row) {
-    for (int column = 20; column < 30; ++column) {
-      release.values[release.index(column, row)] = 4.0;
-    }
-  }
+  Raster release = release_of_rows(20, 15, 40, [](int row) { return row < 4 ? 4.0 : 20.0; });
   release.values[0] = std::nan("");
   const Proposal proposal = propose(dem_points(), release, 20.0);
   EXPECT_EQ(proposal.thickness, 20.0);

@@ -22,38 +22,6 @@ class Maps : public testing::Test {
   static std::string path_of(const std::string& name) { return (folder_of_this_test() / name).string(); }
 };
 
-TEST_F(Maps, AreRead) {
-  const Case found = read(
-      {{"[grid]", "[grid]\nleaving = \"remove\""},
-       {"thickness = 10.0",
-        "thickness = { attribute = \"depth_m\" }\npolygons = [\"north\", \"south\"]\nname_attribute = \"part\"\n"
-        "thickness_along = \"normal\"\nplacement = \"cut\"\ntaper = 15.0\nlargest_volume = 1e9\n"
-        "temperature = { raster = \"map.tif\" }\nice_content = { attribute = \"ice\" }"},
-       {"[basal]",
-        "[maps]\ncell = 20.0\narrival_thickness = 0.5\npath = \"line.geojson\"\n[probe.gauge]\npoint = [3.5, 4.0]\n"
-        "[probe.section]\nline = \"line.geojson\"\n[basal]"}});
-  const Body& slide = found.bodies.at("slide");
-  EXPECT_EQ(slide.thickness.from, MapValue::From::attribute);
-  EXPECT_EQ(slide.thickness.source, "depth_m");
-  EXPECT_EQ(slide.polygons, (std::vector<std::string>{"north", "south"}));
-  EXPECT_EQ(slide.name_attribute, "part");
-  EXPECT_EQ(slide.thickness_along, ThicknessAlong::normal);
-  EXPECT_EQ(slide.placement, Placement::cut);
-  EXPECT_EQ(slide.taper, 15.0);
-  EXPECT_EQ(slide.largest_volume, 1e9);
-  EXPECT_EQ(slide.temperature.over, InitialField::Over::raster);
-  EXPECT_EQ(slide.temperature.source, path_of("map.tif"));
-  EXPECT_EQ(slide.ice_content.over, InitialField::Over::attribute);
-  EXPECT_EQ(slide.ice_content.source, "ice");
-  EXPECT_EQ(found.grid.leaving, Policy::remove);
-  EXPECT_EQ(found.maps.cell, 20.0);
-  EXPECT_EQ(found.maps.arrival_thickness, 0.5);
-  EXPECT_EQ(found.maps.path, path_of("line.geojson"));
-  EXPECT_EQ(found.probes.at("gauge").point, (Point{3.5, 4.0, 0.0}));
-  EXPECT_EQ(found.probes.at("gauge").line, "");
-  EXPECT_EQ(found.probes.at("section").line, path_of("line.geojson"));
-}
-
 TEST_F(Maps, AreSetOnTheCommandLine) {
   const std::string file = fs::relative(folder_of_this_test() / "map.tif", fs::current_path()).string();
   const Case found = read({}, {"body.slide.thickness={ surface = \"" + file + "\" }", "terrain.file=" + file});

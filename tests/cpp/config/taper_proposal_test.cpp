@@ -6,42 +6,33 @@
 
 #include <cmath>
 
+#include "../support/small_terrain.hpp"
+
 namespace thawslide::config {
 namespace {
 
-constexpr double cell = 10.0;  // of the DEM [m]
+using testing_support::raster;
 
-Raster points(int columns, int rows, double value = 0.0) {
-  Raster raster;
-  raster.cell_x = raster.cell_y = cell;
-  raster.columns = columns;
-  raster.rows = rows;
-  raster.values.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), value);
-  return raster;
-}
+constexpr double cell = 10.0;  // of the DEM [m]
 
 // A plane that falls to the east.
 Raster plane(double slope) {
-  Raster dem = points(80, 60);
-  for (int row = 0; row < dem.rows; ++row) {
-    for (int column = 0; column < dem.columns; ++column) {
-      dem.values[dem.index(column, row)] = 500.0 - slope * cell * column;
-    }
-  }
-  return dem;
+  return raster(0.0, 0.0, cell, 80, 60, [=](double x, double) { return 500.0 - slope * x; });
 }
 
-// Uniform thickness on `columns` x `rows` points, plus one point on each side, as a release is read.
+// Thickness by the column and row of a point on `columns` x `rows` points, plus one point on each side, as a release is
+// read.
+Raster release_of(int first_column, int first_row, int columns, int rows,
+                  const std::function<double(int, int)>& thickness) {
+  const double x0 = (first_column - 1) * cell, y0 = (first_row - 1) * cell;
+  return raster(x0, y0, cell, columns + 2, rows + 2, [&](double x, double y) {
+    const auto column = static_cast<int>(std::lround((x - x0) / cell));
+    const auto row = static_cast<int>(std::lround((y - y0) / cell));
+    return column >= 1 && column <= columns && row >= 1 && row <= rows ? thickness(column, row) : 0.0;
+  });
+}
 Raster release(int first_column, int first_row, int columns, int rows, double thickness) {
-  Raster raster = points(columns + 2, rows + 2);
-  raster.x = (first_column - 1) * cell;
-  raster.y = (first_row - 1) * cell;
-  for (int row = 1; row <= rows; ++row) {
-    for (int column = 1; column <= columns; ++column) {
-      raster.values[raster.index(column, row)] = thickness;
-    }
-  }
-  return raster;
+  return release_of(first_column, first_row, columns, rows, [=](int, int) { return thickness; });
 }
 
 TEST(TaperProposal, FallsNoLessThanTheTerrainAndIsThreeThicknessesWide) {
@@ -74,12 +65,8 @@ TEST(TaperProposal, StaysOnKnownGround) {
   holed.values[holed.index(28, 16)] = std::nan("");
   EXPECT_EQ(propose_taper(holed, release(30, 20, 21, 21, 20.0)).width, 60.0);
   // A hole within the bounding rectangle of the release, but away from its points.
-  Raster angled = release(30, 20, 31, 31, 20.0);
-  for (int row = 12; row <= 31; ++row) {
-    for (int column = 12; column <= 31; ++column) {
-      angled.values[angled.index(column, row)] = 0.0;
-    }
-  }
+  const Raster angled =
+      release_of(30, 20, 31, 31, [](int column, int row) { return column >= 12 && row >= 12 ? 0.0 : 20.0; });
   Raster far = dem;
   far.values[far.index(55, 45)] = std::nan("");
   EXPECT_EQ(propose_taper(far, angled).width, 80.0);
@@ -93,12 +80,9 @@ TEST(TaperProposal, KeepsTheThicknessInTheMiddle) {
 }
 
 TEST(TaperProposal, IsOmittedForAReleaseThatThinsOut) {
-  Raster cone = release(30, 20, 21, 21, 1.0);
-  for (int row = 1; row <= 21; ++row) {
-    for (int column = 1; column <= 21; ++column) {
-      cone.values[cone.index(column, row)] = 22.0 - 2.0 * std::max(std::abs(column - 11), std::abs(row - 11));
-    }
-  }
+  const Raster cone = release_of(30, 20, 21, 21, [](int column, int row) {
+    return 22.0 - 2.0 * std::max(std::abs(column - 11), std::abs(row - 11));
+  });
   EXPECT_EQ(propose_taper(plane(0.5), cone).width, 0.0) << "4 m thick next to its edge";
 }
 
