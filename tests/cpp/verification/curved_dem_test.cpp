@@ -61,15 +61,11 @@ TEST(Bowl, BlockOscillatesLikeAPointMassWithFriction) {
   Curve curve{"angle [degrees]", "speed [m/s]", {}, {}, {}};
   double largest_aside = 0.0;
   while (angle(now) > 0.0 && simulation.time() < 30.0) {
-    for (int k = 0; k < 25; ++k) {
-      simulation.step(simulation.next_step(30.0));
-    }
+    take_steps(simulation, 25, 30.0);
     now = CentreOfMass(simulation);
-    curve.x.push_back(angle(now) / degree);
-    curve.computed.push_back(now.velocity.norm());
     const double r = from_centre(now).norm();
     const physics::exact::ArcSlide exact{r, r, r * r, std::tan(10.0 * degree), gravity};
-    curve.exact.push_back(r * exact.angular_speed(angle(now), first));
+    add_point(curve, angle(now) / degree, now.velocity.norm(), r * exact.angular_speed(angle(now), first));
     largest_aside = std::max(largest_aside, std::abs(along[0] * now.position[1] - along[1] * now.position[0]));
   }
   record.expect_near("speed at the lowest point over exact", curve.computed.back() / curve.exact.back(), 1.0, 0.02);

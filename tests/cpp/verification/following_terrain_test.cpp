@@ -78,8 +78,8 @@ std::pair<double, double> crest_and_front(double begin) {
     const Vector<double, 1> place(x - model.origin[0]);
     crest = std::max(crest, model.ground->height(place, 0) + model.origin[1]);
   }
-  return {crest, greatest_of(simulation,
-                             [&](std::size_t p) { return model.origin[0] + simulation.particles().position(p, 0); })};
+  const auto& position = simulation.particles().position;
+  return {crest, greatest_of(simulation, [&](std::size_t p) { return model.origin[0] + position(p, 0); })};
 }
 
 TEST(FollowingTerrain, ADamTwoColumnsWideHoldsABlock) {
@@ -194,22 +194,15 @@ class Pool {
   // Differences of the pressure of nodes from rho g h, where the pool is deeper than half a cell, over rho g 40 m.
   [[nodiscard]] std::vector<double> pressure_errors() const {
     std::vector<double> errors;
-    const auto& nodes = simulation_->nodes();
+    const auto& model = simulation_->model();
     const auto& particles = simulation_->particles();
-    const double density = particles.mass(0) / particles.initial_volume(0);
-    for (std::size_t b = 0; b < simulation_->grid().blocks().size(); ++b) {
-      for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
-        const auto& contact = nodes.contact(b, k);
-        const Vector<double, 1> x(mpm::node_position(simulation_->grid(), b, k)[0]);
-        const auto& model = simulation_->model();
-        const double depth = surface - model.origin[1] - model.ground->height(x, 0);
-        if (contact[mpm::Contact::touching] > 0.0 && x[0] >= 0.0 && x[0] <= length && depth > 0.5 * cell) {
-          errors.push_back(contact[mpm::Contact::normal_force] / contact[mpm::Contact::area] /
-                               (density * gravity * surface) -
-                           depth / surface);
-        }
+    const double weight = gravity * particles.mass(0) / particles.initial_volume(0);
+    for_contacts(*simulation_, [&](double pressure, double x) {
+      const double depth = surface - model.origin[1] - model.ground->height(Vector<double, 1>(x), 0);
+      if (x >= 0.0 && x <= length && depth > 0.5 * cell) {
+        errors.push_back(pressure / (weight * surface) - depth / surface);
       }
-    }
+    });
     return errors;
   }
 

@@ -69,8 +69,8 @@ void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
   Curve curve{"volume beyond (share of all)", "place (m)", {}, {}, {}};
   for (const double time : {2.0, 4.0}) {
     run_until(simulation, time);
-    std::vector<double> positions =
-        of_particles(simulation, [&](std::size_t p) { return simulation.particles().position(p, 0); });
+    const auto& particles = simulation.particles();
+    std::vector<double> positions = of_particles(simulation, [&](std::size_t p) { return particles.position(p, 0); });
     std::sort(positions.begin(), positions.end());
     const double front = length + 0.5 * along * time * time + 2.0 * std::sqrt(across * depth) * time;
     for (const double fraction : {0.005, 0.02, 0.05, 0.1}) {

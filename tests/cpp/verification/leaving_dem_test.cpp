@@ -138,11 +138,13 @@ double deepest_in_any_step(const Height& height, double end, double& centre_x) {
   double deepest = 0.0;
   while (simulation.time() < end) {
     simulation.step(simulation.next_step(end));
-    deepest = std::max(deepest, greatest_of(simulation, [&](std::size_t p) {
-                         const auto position = simulation.particles().position.get<Position>(p);
-                         const Place place = position.head<2>();
-                         return (surface.height(place) - position[2]) * surface.slope_cosine(place, 2.5);
-                       }));
+    const auto& particles = simulation.particles();
+    const auto depth = [&](std::size_t p) {
+      const Position position = particles.position.get<Position>(p);
+      const Place place = position.head<2>();
+      return (surface.height(place) - position[2]) * surface.slope_cosine(place, 2.5);
+    };
+    deepest = std::max(deepest, greatest_of(simulation, depth));
   }
   centre_x = CentreOfMass(simulation).position[0];
   return deepest;

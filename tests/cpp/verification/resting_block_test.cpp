@@ -23,16 +23,9 @@ Pressing press(const Sets& sets) {
   while (simulation.time() < 2.0 - 1e-9) {
     simulation.step(simulation.next_step(2.0));
     seen.ringing = std::max(seen.ringing, std::abs(-simulation.contact().force[1] / weight - 1.0));
-    const auto& contacts = simulation.nodes().contact;
-    for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
-      for (std::size_t k = 0; contacts.contains(b) && k < contacts.nodes; ++k) {
-        const auto& contact = contacts(b, k);
-        if (contact[mpm::Contact::touching] > 0.0) {
-          const double pressure = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
-          seen.unevenness = std::max(seen.unevenness, std::abs(pressure / mean - 1.0));
-        }
-      }
-    }
+    for_contacts(simulation, [&](double pressure, double) {
+      seen.unevenness = std::max(seen.unevenness, std::abs(pressure / mean - 1.0));
+    });
   }
   return seen;
 }
@@ -66,9 +59,9 @@ TEST(AngleSweep, SticksBelowAndSlidesAboveTheFrictionAngle) {
   for (const double slope : {15.0, 18.0, 19.0, 19.9, 20.1, 21.0, 22.0, 25.0, 30.0}) {
     Simulation<2> simulation(published_case("block", sweep + fmt::format("case.gravity_tilt={}", slope)));
     run_until(simulation, 1.0);  // after the elastic transient at the start
-    const double before = value_of(history_row(simulation), "mean_velocity_m_s");
+    const double before = history_value(simulation, "mean_velocity_m_s");
     run_until(simulation, 2.0);
-    const double acceleration = value_of(history_row(simulation), "mean_velocity_m_s") - before;
+    const double acceleration = history_value(simulation, "mean_velocity_m_s") - before;
     const double exact = physics::exact::acceleration_on_plane(slope * degree, std::tan(20.0 * degree), 9.81);
     add_point(curve, slope, acceleration, exact);
     record.expect_near(fmt::format("acceleration on {} degrees [m/s2]", slope), acceleration, exact,

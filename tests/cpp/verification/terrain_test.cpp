@@ -93,9 +93,7 @@ TEST(CurvedTerrain, OscillatesLikeAPendulumWithFriction) {
     Curve curve{"angle [degrees]", "speed [m/s]", {}, {}, {}};
     Turning now = start;
     while (now.angle() > 0.0 && simulation.time() < 30.0) {
-      for (int k = 0; k < 25; ++k) {
-        simulation.step(simulation.next_step(30.0));
-      }
+      take_steps(simulation, 25, 30.0);
       now = Turning(simulation);
       add_point(curve, now.angle() / degree, now.speed,
                 exact.angular_speed(now.angle(), start.angle()) * now.centre.norm());

@@ -109,20 +109,28 @@ Simulation<3> mirrored(const Sets& sets) {
   return Simulation<3>(case_on_dem(base_text("release"), debris + sets), site_of(ground, thickness));
 }
 
-Position position_of(const Simulation<3>& simulation, std::size_t p) {
-  return simulation.particles().position.get<Position>(p) + simulation.model().origin;
+std::vector<Position> positions_by_id(const Simulation<3>& simulation) {
+  std::vector<Position> positions(simulation.particles().size());
+  for (std::size_t p = 0; p < positions.size(); ++p) {
+    positions[static_cast<std::size_t>(simulation.particles().id(p))] =
+        simulation.particles().position.get<Position>(p) + simulation.model().origin;
+  }
+  return positions;
 }
 
-// Pairs of particles, by index, that are initially mirror images.
-std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation<3>& simulation) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
-  const auto& particles = simulation.particles();
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    for (std::size_t q = 0; q < particles.size(); ++q) {
-      const Position position = position_of(simulation, p);
-      if (position[1] > 0.0 &&
-          (position_of(simulation, q) - Position(position[0], -position[1], position[2])).norm() < 1e-6) {
-        pairs.emplace_back(particles.id(p), particles.id(q));
+double distance_of_images(const Position& a, const Position& b) {
+  return (b - a.cwiseProduct(Position(1.0, -1.0, 1.0))).norm();
+}
+
+// Pairs of particles, by id, that are initially mirror images.
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+Pairs mirror_pairs(const Simulation<3>& simulation) {
+  Pairs pairs;
+  const std::vector<Position> positions = positions_by_id(simulation);
+  for (std::size_t p = 0; p < positions.size(); ++p) {
+    for (std::size_t q = 0; q < positions.size(); ++q) {
+      if (positions[p][1] > 0.0 && distance_of_images(positions[p], positions[q]) < 1e-6) {
+        pairs.emplace_back(p, q);
       }
     }
   }
@@ -130,16 +138,11 @@ std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation
 }
 
 // Maximum distance of a particle from the mirror image of its counterpart [m].
-double largest_asymmetry(const Simulation<3>& simulation,
-                         const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs) {
-  std::vector<Position> by_id(simulation.particles().size());
-  for (std::size_t p = 0; p < by_id.size(); ++p) {
-    by_id[static_cast<std::size_t>(simulation.particles().id(p))] = position_of(simulation, p);
-  }
+double largest_asymmetry(const Simulation<3>& simulation, const Pairs& pairs) {
+  const std::vector<Position> positions = positions_by_id(simulation);
   double largest = 0.0;
   for (const auto& [left, right] : pairs) {
-    const Position image = by_id[static_cast<std::size_t>(right)].cwiseProduct(Position(1.0, -1.0, 1.0));
-    largest = std::max(largest, (by_id[static_cast<std::size_t>(left)] - image).norm());
+    largest = std::max(largest, distance_of_images(positions[left], positions[right]));
   }
   return largest;
 }
@@ -160,10 +163,9 @@ TEST(MirroredTerrain, SlideStaysSymmetric) {
   EXPECT_GT(front_at_rest(yielding, Place(1.0, 0.0)), 60.0) << "the slide has gone far";
   record.expect_near("yielding, at the end: front to the left, less that to the right [m]",
                      front_along(yielding, Place(0.0, 1.0)) - front_along(yielding, Place(0.0, -1.0)), 0.0, cell);
-  const auto half_front = [&](double side) {
+  const auto half_front = [&, positions = positions_by_id(yielding)](double side) {
     double front = -HUGE_VAL;
-    for (std::size_t p = 0; p < yielding.particles().size(); ++p) {
-      const Position position = position_of(yielding, p);
+    for (const Position& position : positions) {
       front = side * position[1] > 0.0 ? std::max(front, position[0]) : front;
     }
     return front;

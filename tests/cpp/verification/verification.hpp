@@ -80,6 +80,29 @@ double history_value(const Run& run, const std::string& column) {
   return value_of(sim::history_row(run), column);
 }
 
+// Calls visit(pressure [Pa], x [m] in the local frame) for each node that touches the ground.
+template <class Visit>
+void for_contacts(const Simulation<2>& simulation, const Visit& visit) {
+  const auto& contacts = simulation.nodes().contact;
+  for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
+    for (std::size_t k = 0; contacts.contains(b) && k < contacts.nodes; ++k) {
+      const auto& contact = contacts(b, k);
+      if (contact[mpm::Contact::touching] > 0.0) {
+        visit(contact[mpm::Contact::normal_force] / contact[mpm::Contact::area],
+              mpm::node_position(simulation.grid(), b, k)[0]);
+      }
+    }
+  }
+}
+
+// Takes steps, unless the run ends before.
+template <class Run>
+void take_steps(Run& run, int count, double end) {
+  for (int k = 0; k < count; ++k) {
+    run.step(run.next_step(end));
+  }
+}
+
 // TOML of a point in a plane or in space: z is up in both.
 inline std::string point_text(int dimension, double x, double y, double z) {
   return dimension == 3 ? fmt::format("[{}, {}, {}]", x, y, z) : fmt::format("[{}, {}]", x, z);
