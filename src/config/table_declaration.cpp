@@ -166,11 +166,11 @@ void report_empty(const std::string& table, const Rule& rule, const std::string&
   reading.report(key, fmt::format("{} is empty, and {}. Allowed: {}, {}.", key, reason_for(when), rule.text, type));
 }
 
-void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading) {
-  const std::string key = join(table, rule.key);
-  const std::string decided_by = join(table, meaning.decided_by);
-  reading.report_misfit({key, decided_by}, fmt::format("{} has a meaning only {}. Remove it, or change {}.", key,
-                                                       meaning.when, decided_by));
+void report_without_meaning(const std::string& table, const Rule& rule, const std::string& when,
+                            const std::string& decided_by, Reading& reading) {
+  const std::string key = join(table, rule.key), other = join(table, decided_by);
+  reading.report_misfit({key, other},
+                        fmt::format("{} has a meaning only {}. Remove it, or change {}.", key, when, other));
 }
 
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading) {
