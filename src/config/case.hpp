@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/table.hpp"
@@ -357,6 +358,14 @@ struct Case {
   std::map<std::string, Probe> probes;
   Report report;
 };
+
+// Initial fields of a body with their keys.
+inline std::array<std::pair<const char*, const InitialField*>, 4> fields_of(const Body& body) {
+  return {{{"temperature", &body.temperature},
+           {"saturation", &body.saturation},
+           {"porosity", &body.porosity},
+           {"ice_content", &body.ice_content}}};
+}
 
 // Whether the ground is a profile or a DEM.
 inline bool has_terrain(const Case& parameters) {

@@ -22,11 +22,11 @@ void check_grounds(const Case& checked, Reading& reading);
 // Checks the erodible bed: [bed].
 void check_bed(const Case& checked, Reading& reading);
 
-// Checks contact between bodies: [contact] and [contact_pair.NAME].
-void check_contact(const Case& checked, Reading& reading);
-
 // Excludes what is not available on cells that follow the terrain.
 void check_cells(const Case& checked, Reading& reading);
+
+// Checks other options that exclude each other.
+void check_exclusions(const Case& checked, Reading& reading);
 
 // Checks DEM, releases, map inputs of bodies, and probes. The contents of the maps are checked later.
 void check_maps(const Case& checked, Reading& reading);

@@ -122,27 +122,19 @@ bool cross(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
   return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
 }
 
-// Numbers, from 1, of the first vertices of two sides that cross; 0 and 0 if none do.
-std::array<std::size_t, 2> crossing_sides(const Vertices& vertices) {
+// Checks that the polygon encloses one area once; `size` is its maximum extent.
+bool check_outline(const Vertices& vertices, double size, const std::string& key, Reading& reading) {
   const std::size_t count = vertices.size();
   for (std::size_t j = 0; j < count; ++j) {
     for (std::size_t k = j + 2; k < count; ++k) {
       if (cross(vertices[j], vertices[j + 1], vertices[k], vertices[(k + 1) % count])) {
-        return {j + 1, k + 1};
+        reading.report(key,
+                       fmt::format("{} make sides that cross: the one after vertex {} and the one after vertex {}; "
+                                   "allowed: corners in order around the body. Put them in order.",
+                                   key, j + 1, k + 1));
+        return false;
       }
     }
-  }
-  return {0, 0};
-}
-
-// Checks that the polygon encloses one area once; `size` is its maximum extent.
-bool check_outline(const Vertices& vertices, double size, const std::string& key, Reading& reading) {
-  const auto [first, second] = crossing_sides(vertices);
-  if (second > 0) {
-    reading.report(key, fmt::format("{} make sides that cross: the one after vertex {} and the one after vertex {}; "
-                                    "allowed: corners in order around the body. Put them in order.",
-                                    key, first, second));
-    return false;
   }
   double twice_area = 0.0;
   for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
@@ -215,36 +207,32 @@ std::array<Point, 2> surface_extent(const ProfileTable& profile) {
 }
 
 void check_surface(const Case& checked, const ProfileTable& profile, const std::string& table, Reading& reading) {
+  const std::string shape = table + ".shape";
   if (checked.terrain.kind != TerrainKind::profile) {
     reading.report_misfit(
-        {table + ".shape", "terrain.type"},
-        fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
-                    "takes the body from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use "
+        {shape, "terrain.type"},
+        fmt::format("{} is \"surface\", and terrain.type is not \"profile\"; that shape takes the body "
+                    "from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use "
                     "the shape \"box\" or \"polygon\".",
-                    table));
-    return;
+                    shape));
   }
   if (profile.empty()) {
     return;
   }
   if (profile.surface.empty()) {
-    reading.report_misfit(
-        {table + ".shape", "terrain.file"},
-        fmt::format("{}.shape is \"surface\", and the profile has no column surface_elevation_m; add it to {}, or "
-                    "use the shape \"box\" or \"polygon\".",
-                    table, checked.terrain.file));
-    return;
+    reading.report_misfit({shape, "terrain.file"},
+                          fmt::format("{} is \"surface\", and the profile has no column surface_elevation_m; add it to "
+                                      "{}, or use the shape \"box\" or \"polygon\".",
+                                      shape, checked.terrain.file));
+  } else if (const auto [low, high] = surface_extent(profile); low[0] < high[0]) {
+    check_in_domain(checked, low, high, table, shape, shape, reading);
+  } else {
+    reading.report_misfit({shape, "terrain.file"},
+                          fmt::format("{} is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: "
+                                      "the body holds nothing. Raise the surface there, or use the shape \"box\" or "
+                                      "\"polygon\".",
+                                      shape, checked.terrain.file));
   }
-  const auto [low, high] = surface_extent(profile);
-  if (!(low[0] < high[0])) {
-    reading.report_misfit(
-        {table + ".shape", "terrain.file"},
-        fmt::format("{}.shape is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: the "
-                    "body holds nothing. Raise the surface there, or use the shape \"box\" or \"polygon\".",
-                    table, checked.terrain.file));
-    return;
-  }
-  check_in_domain(checked, low, high, table, table + ".shape", table + ".shape", reading);
 }
 
 void check_release_time(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
@@ -260,18 +248,15 @@ void check_release_time(const Case& checked, const Body& body, const std::string
                                key, release.attribute, table));
     return;
   }
-  if (release.number >= checked.time.end) {
-    reading.report_misfit({key, "time.end"},
-                          fmt::format("{} is {} s, and time.end is {} s: the body would be held for the whole run. Set "
-                                      "an earlier time, or a later time.end.",
-                                      key, release.number, checked.time.end));
-  }
   const bool is_staged = release.number > 0.0 || !release.attribute.empty();
-  if (is_staged && reading.are_valid({table + ".velocity"}) && body.velocity != Point{}) {
-    reading.report_misfit({table + ".velocity", key},
-                          fmt::format("{}.velocity is {}, and {} holds the body at rest until its release. Remove one.",
-                                      table, point_text(body.velocity, checked.general.dimension), key));
-  }
+  reading.refuse_if(is_staged && body.velocity != Point{}, {table + ".velocity", key},
+                    "{}.velocity is {}, and {} holds the body at rest until its release. Remove one.", table,
+                    point_text(body.velocity, checked.general.dimension), key);
+  reading.refuse_if(
+      release.number >= checked.time.end, {key, "time.end"},
+      "{} is {} s, and time.end is {} s: the body would be held for the whole run. Set an earlier time, or "
+      "a later time.end.",
+      key, release.number, checked.time.end);
 }
 
 void check_body(const Case& checked, const ProfileTable& profile, const std::string& name, const Body& body,
@@ -279,10 +264,7 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
   const std::string table = "body." + name;
   check_material(checked, table, body.material, reading);
   check_release_time(checked, body, table, reading);
-  if (!reading.are_valid({table + ".shape", "grid.cell"})) {
-    return;
-  }
-  if (body.shape == BodyShape::release) {
+  if (!reading.are_valid({table + ".shape", "grid.cell"}) || body.shape == BodyShape::release) {
     return;
   }
   if (body.shape != BodyShape::box && checked.general.dimension == 3) {

@@ -19,9 +19,7 @@ std::vector<InputFile> map_files(const Case& parameters) {
     if (body.thickness.from == MapValue::From::raster || body.thickness.from == MapValue::From::surface) {
       files.push_back({table + "thickness", body.thickness.source});
     }
-    for (const auto& [key, field] :
-         {std::pair("temperature", &body.temperature), std::pair("saturation", &body.saturation),
-          std::pair("porosity", &body.porosity), std::pair("ice_content", &body.ice_content)}) {
+    for (const auto& [key, field] : fields_of(body)) {
       if (field->over == InitialField::Over::raster) {
         files.push_back({table + key, field->source});
       }

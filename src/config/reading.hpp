@@ -1,12 +1,15 @@
 // State while reading a case file: locations of keys, problems found, and command-line overrides.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/case_source.hpp"
@@ -41,6 +44,14 @@ struct Reading {
   // Adds a problem of several keys at the first of them set by `--set`, because the case file is probably consistent
   // without it. Otherwise the location is the first key, which is marked as invalid in either case.
   void report_misfit(std::initializer_list<std::string> dotted, std::string message);
+  // The same for keys that do not fit each other, unless one of them has a problem already.
+  template <class... Args>
+  void refuse_if(bool is_misfit, std::initializer_list<std::string> dotted, fmt::format_string<Args...> message,
+                 Args&&... args) {
+    if (is_misfit && are_valid(dotted)) {
+      report_misfit(dotted, fmt::format(message, std::forward<Args>(args)...));
+    }
+  }
 };
 
 // Reads one value of one key and reports problems. All functions return true if the value is valid.
