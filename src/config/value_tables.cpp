@@ -1,4 +1,7 @@
 // Values that are a number or an inline table: tables over time, initial fields, map values, heat boundaries.
+#include <algorithm>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "config/values.hpp"
@@ -9,54 +12,34 @@ namespace {
 
 using nlohmann::json;
 
-const Rule rule_of_numbers{};
-
-// Keys that specify the source of a map value.
-struct MapKeyword {
-  MapValue::From from;
-  const char* key;
+// A value in one of its forms: a number, a table over a variable, or the name of its source.
+struct Form {
+  std::string key;  // of the variable or of the source; empty: a number
+  Table table;
+  std::string source;
 };
-constexpr MapKeyword map_keywords[] = {
-    {MapValue::From::attribute, "attribute"}, {MapValue::From::raster, "raster"}, {MapValue::From::surface, "surface"}};
 
-std::string write_array(const std::vector<double>& numbers) {
-  return Value<Numbers>::write(numbers, rule_of_numbers, WriteContext{});
+json object_schema(const char* key, const json& value) {
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"required", json::array({key})},
+          {"properties", {{key, value}}}};
 }
 
-std::string write_table(const Table& table, const char* abscissa) {
-  if (table.is_constant()) {
-    return table.value.empty() ? "" : number_text(table.value.front());
-  }
-  return fmt::format("{{ {} = {}, value = {} }}", abscissa, write_array(table.abscissa), write_array(table.value));
-}
+json array_of(const json& items) { return {{"type", "array"}, {"items", items}}; }
 
-json table_schema(const std::vector<const char*>& abscissae, const Rule& rule) {
-  const json number = Value<double>::schema(rule);
-  const json numbers = {{"type", "array"}, {"items", number}};
-  json any_of = json::array({number});
-  for (const char* abscissa : abscissae) {
-    any_of.push_back(
-        {{"type", "object"},
-         {"additionalProperties", false},
-         {"required", json::array({abscissa, "value"})},
-         {"properties", {{abscissa, {{"type", "array"}, {"items", {{"type", "number"}}}}}, {"value", numbers}}}});
-  }
-  return {{"anyOf", any_of}};
-}
-
-std::vector<std::string> keys_of(const toml::table& table) {
+bool fail_keys(const toml::node& node, const ValueReader& at) {
   std::vector<std::string> keys;
-  for (const auto& [key, node] : table) {
+  for (const auto& [key, value] : *node.as_table()) {
     keys.emplace_back(key.str());
   }
-  return keys;
+  return at.fail(node, fmt::format("is a table with {}; allowed: {}",
+                                   keys.empty() ? "no key" : "the keys " + comma_list(keys), at.allowed));
 }
 
-enum class Jumps { allowed, refused };
-
 // Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending; two equal abscissae form a jump.
-bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, Table& table,
-                Jumps jumps = Jumps::allowed) {
+bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, bool may_jump,
+                Table& table) {
   Table found;
   if (!at.numbers(*node.get(abscissa), found.abscissa, false) || !at.numbers(*node.get("value"), found.value, true)) {
     return false;
@@ -69,51 +52,15 @@ bool read_table(const toml::table& node, const std::string& abscissa, const Valu
     const bool descends = found.abscissa[k] < found.abscissa[k - 1];
     const bool jumps_here = found.abscissa[k] == found.abscissa[k - 1];
     const bool third_at_a_jump = k > 1 && found.abscissa[k] == found.abscissa[k - 2];
-    if (descends || third_at_a_jump || (jumps_here && jumps == Jumps::refused)) {
-      return at.fail(
-          *node.get(abscissa)->as_array()->get(k),
-          fmt::format("holds {} {} after {}; allowed: {}", abscissa, plain_number(found.abscissa[k]),
-                      plain_number(found.abscissa[k - 1]),
-                      jumps == Jumps::allowed ? "ascending, and a jump as two equal entries" : "strictly increasing"));
+    if (descends || third_at_a_jump || (jumps_here && !may_jump)) {
+      return at.fail(*node.get(abscissa)->as_array()->get(k),
+                     fmt::format("holds {} {} after {}; allowed: {}", abscissa, plain_number(found.abscissa[k]),
+                                 plain_number(found.abscissa[k - 1]),
+                                 may_jump ? "ascending, and a jump as two equal entries" : "strictly increasing"));
     }
   }
   table = std::move(found);
   return true;
-}
-
-bool has_exactly(const toml::table& table, const std::string& abscissa) {
-  return table.size() == 2 && table.contains(abscissa) && table.contains("value");
-}
-
-bool fail_keys(const toml::node& node, const ValueReader& at) {
-  return at.fail(node,
-                 fmt::format("is a table with {}; allowed: {}",
-                             node.as_table()->empty() ? "no key" : "the keys " + comma_list(keys_of(*node.as_table())),
-                             at.allowed));
-}
-
-// Reads a number, or { ABSCISSA = [...], value = [...] }.
-bool read_number_or_table(const toml::node& node, const std::string& abscissa, const ValueReader& at, Table& value,
-                          Jumps jumps = Jumps::allowed) {
-  if (const toml::table* table = node.as_table()) {
-    return has_exactly(*table, abscissa) ? read_table(*table, abscissa, at, value, jumps) : fail_keys(node, at);
-  }
-  double number = 0.0;
-  if (!at.number_in_range(node, number)) {
-    return false;
-  }
-  value = Table(number);
-  return true;
-}
-
-// Key that the table contains, if it is its only key; empty otherwise.
-std::string only_key(const toml::table& table, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    if (table.size() == 1 && table.contains(key)) {
-      return key;
-    }
-  }
-  return "";
 }
 
 // Reads the text of { KEY = "..." }: the name of an attribute, or a path, which becomes absolute.
@@ -134,165 +81,173 @@ bool read_source(const toml::table& table, const std::string& key, const ValueRe
   return true;
 }
 
-// { KEY = "..." }
-std::string write_source(const std::string& key, const std::string& source, const WriteContext& context) {
-  return fmt::format("{{ {} = {} }}", key, key == "attribute" ? quoted(source) : path_text(source, context));
+bool is_source(const std::string& key) { return key == "attribute" || key == "raster" || key == "surface"; }
+
+// Forms of a value by their keys: "" for a number, variables of tables, and sources.
+struct Forms {
+  std::span<const char* const> keys;
+  bool may_jump = true;  // of tables
+
+  [[nodiscard]] std::string type(const Rule& rule) const {
+    std::vector<std::string> forms{"a number"};
+    for (const std::string key : keys.subspan(1)) {
+      forms.push_back(!is_source(key) ? fmt::format("{{ {} = [...], value = [...] }}", key)
+                                      : fmt::format("{{ {} = \"{}\" }}", key, key == "attribute" ? "NAME" : "FILE"));
+    }
+    const std::string last = " or " + forms.back(), range = rule.range.text();
+    forms.pop_back();
+    return comma_list(forms) + last + (range == "any number" ? "" : ", " + range) +
+           (rule.unit.empty() ? "" : " [" + rule.unit + "]");
+  }
+
+  [[nodiscard]] json schema(const Rule& rule) const {
+    const json number = Value<double>::schema(rule);
+    json any_of = json::array({number});
+    for (const char* key : keys.subspan(1)) {
+      json form = object_schema(key, is_source(key) ? json{{"type", "string"}} : array_of({{"type", "number"}}));
+      if (!is_source(key)) {
+        form["required"].push_back("value");
+        form["properties"]["value"] = array_of(number);
+      }
+      any_of.push_back(form);
+    }
+    return {{"anyOf", any_of}};
+  }
+
+  // The key is found even if its contents are invalid.
+  bool read(const toml::node& node, const ValueReader& at, Form& found) const {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      double number = 0.0;
+      const bool is_valid = at.number_in_range(node, number);
+      found.table = Table(number);
+      return is_valid;
+    }
+    for (const std::string key : keys.subspan(1)) {
+      if (table->contains(key) && table->size() == (is_source(key) ? 1 : 2) &&
+          (is_source(key) || table->contains("value"))) {
+        found.key = key;
+        return is_source(key) ? read_source(*table, key, at, found.source)
+                              : read_table(*table, key, at, may_jump, found.table);
+      }
+    }
+    return fail_keys(node, at);
+  }
+};
+
+std::string write_table(const Table& table, const char* variable) {
+  if (table.is_constant()) {
+    return table.value.empty() ? "" : number_text(table.value.front());
+  }
+  const auto array = [](const Numbers& numbers) { return Value<Numbers>::write(numbers, {}, {}); };
+  return fmt::format("{{ {} = {}, value = {} }}", variable, array(table.abscissa), array(table.value));
 }
 
-json source_schema(const char* key) {
-  return {{"type", "object"},
-          {"additionalProperties", false},
-          {"required", json::array({key})},
-          {"properties", {{key, {{"type", "string"}}}}}};
+std::string write_source(const char* key, const std::string& source, const WriteContext& context) {
+  return fmt::format("{{ {} = {} }}", key,
+                     std::string(key) == "attribute" ? quoted(source) : path_text(source, context));
 }
 
-std::string range_and_unit(const Rule& rule) {
-  const std::string range = rule.range.text();
-  return fmt::format("{}{}{}", range == "any number" ? "" : ", " + range, rule.unit.empty() ? "" : " [" + rule.unit,
-                     rule.unit.empty() ? "" : "]");
+constexpr const char* time_keys[] = {"", "time"};
+constexpr const char* x_keys[] = {"", "x"};
+constexpr const char* release_keys[] = {"", "attribute"};
+constexpr const char* field_keys[] = {"", "depth", "x", "attribute", "raster"};  // as InitialField::Over
+constexpr const char* map_keys[] = {"", "attribute", "raster", "surface"};       // as MapValue::From
+constexpr Forms over_time{time_keys}, over_x{x_keys, false}, release_forms{release_keys}, field_forms{field_keys},
+    map_forms{map_keys};
+
+// Entry of one of these lists, as its enumeration.
+template <class Enum, std::size_t Size>
+Enum of_key(const char* const (&keys)[Size], const std::string& key) {
+  return static_cast<Enum>(std::find(std::begin(keys), std::end(keys), key) - std::begin(keys));
 }
 
 }  // namespace
 
 // thickness of the band
-std::string Value<BandThickness>::type(const Rule& rule) {
-  return fmt::format("a number or {{ time = [...], value = [...] }}{}", range_and_unit(rule));
-}
+std::string Value<BandThickness>::type(const Rule& rule) { return over_time.type(rule); }
 bool Value<BandThickness>::read(const toml::node& node, const ValueReader& at, BandThickness& value) {
-  return read_number_or_table(node, "time", at, value.table);
+  Form found;
+  if (!over_time.read(node, at, found)) {
+    return false;
+  }
+  value.table = std::move(found.table);
+  return true;
 }
 std::string Value<BandThickness>::write(const BandThickness& value, const Rule&, const WriteContext&) {
   return write_table(value.table, "time");
 }
-json Value<BandThickness>::schema(const Rule& rule) { return table_schema({"time"}, rule); }
+json Value<BandThickness>::schema(const Rule& rule) { return over_time.schema(rule); }
 
 // width of a section
-std::string Value<WidthOverX>::type(const Rule& rule) {
-  return fmt::format("a number or {{ x = [...], value = [...] }}{}", range_and_unit(rule));
-}
+std::string Value<WidthOverX>::type(const Rule& rule) { return over_x.type(rule); }
 bool Value<WidthOverX>::read(const toml::node& node, const ValueReader& at, WidthOverX& value) {
-  Table found;
-  if (!read_number_or_table(node, "x", at, found, Jumps::refused)) {
+  Form found;
+  if (!over_x.read(node, at, found)) {
     return false;
   }
-  for (std::size_t k = 0; k < found.abscissa.size(); ++k) {
-    if (!(found.value[k] > 0.0)) {
+  for (std::size_t k = 0; k < found.table.abscissa.size(); ++k) {
+    if (!(found.table.value[k] > 0.0)) {
       return at.fail(*node.as_table()->get("value")->as_array()->get(k),
-                     fmt::format("holds the value {} at x = {}; allowed in a table: > 0", plain_number(found.value[k]),
-                                 plain_number(found.abscissa[k])));
+                     fmt::format("holds the value {} at x = {}; allowed in a table: > 0",
+                                 plain_number(found.table.value[k]), plain_number(found.table.abscissa[k])));
     }
   }
-  value.table = std::move(found);
+  value.table = std::move(found.table);
   return true;
 }
 std::string Value<WidthOverX>::write(const WidthOverX& value, const Rule&, const WriteContext&) {
   return write_table(value.table, "x");
 }
-json Value<WidthOverX>::schema(const Rule& rule) { return table_schema({"x"}, rule); }
+json Value<WidthOverX>::schema(const Rule& rule) { return over_x.schema(rule); }
 
 // initial field
-std::string Value<InitialField>::type(const Rule& rule) {
-  return fmt::format(
-      "a number, {{ depth = [...], value = [...] }}, {{ x = [...], value = [...] }}, {{ attribute = \"NAME\" }} or "
-      "{{ raster = \"FILE\" }}{}",
-      range_and_unit(rule));
-}
+std::string Value<InitialField>::type(const Rule& rule) { return field_forms.type(rule); }
 bool Value<InitialField>::read(const toml::node& node, const ValueReader& at, InitialField& value) {
-  InitialField found;
-  const toml::table* table = node.as_table();
-  const std::string map = table == nullptr ? "" : only_key(*table, {"attribute", "raster"});
-  if (table != nullptr && !map.empty()) {
-    found.over = map == "raster" ? InitialField::Over::raster : InitialField::Over::attribute;
-    if (!read_source(*table, map, at, found.source)) {
-      return false;
-    }
-  } else if (table != nullptr) {
-    found.over = has_exactly(*table, "depth") ? InitialField::Over::depth : InitialField::Over::x;
-    const char* abscissa = found.over == InitialField::Over::depth ? "depth" : "x";
-    if (!has_exactly(*table, abscissa)) {
-      return fail_keys(node, at);
-    }
-    if (!read_table(*table, abscissa, at, found.table)) {
-      return false;
-    }
-  } else {
-    double number = 0.0;
-    if (!at.number_in_range(node, number)) {
-      return false;
-    }
-    found = InitialField(number);
+  Form found;
+  if (!field_forms.read(node, at, found)) {
+    return false;
   }
-  value = std::move(found);
+  value.over = of_key<InitialField::Over>(field_keys, found.key);
+  value.table = std::move(found.table);
+  value.source = std::move(found.source);
   return true;
 }
 std::string Value<InitialField>::write(const InitialField& value, const Rule&, const WriteContext& context) {
-  if (value.is_map()) {
-    return write_source(value.over == InitialField::Over::raster ? "raster" : "attribute", value.source, context);
-  }
-  return write_table(value.table, value.over == InitialField::Over::depth ? "depth" : "x");
+  const char* key = field_keys[static_cast<std::size_t>(value.over)];
+  return value.is_map() ? write_source(key, value.source, context) : write_table(value.table, key);
 }
-json Value<InitialField>::schema(const Rule& rule) {
-  json schema = table_schema({"depth", "x"}, rule);
-  schema["anyOf"].push_back(source_schema("attribute"));
-  schema["anyOf"].push_back(source_schema("raster"));
-  return schema;
-}
+json Value<InitialField>::schema(const Rule& rule) { return field_forms.schema(rule); }
 
 // map value
-std::string Value<MapValue>::type(const Rule& rule) {
-  return fmt::format("a number, {{ attribute = \"NAME\" }}, {{ raster = \"FILE\" }} or {{ surface = \"FILE\" }}{}",
-                     range_and_unit(rule));
-}
+std::string Value<MapValue>::type(const Rule& rule) { return map_forms.type(rule); }
 bool Value<MapValue>::read(const toml::node& node, const ValueReader& at, MapValue& value) {
-  const toml::table* table = node.as_table();
-  if (table == nullptr) {
-    value = MapValue{};
-    return at.number_in_range(node, value.number);
-  }
-  const std::string key = only_key(*table, {"attribute", "raster", "surface"});
-  if (key.empty()) {
-    return fail_keys(node, at);
-  }
-  for (const MapKeyword& keyword : map_keywords) {
-    value.from = key == keyword.key ? keyword.from : value.from;  // valid regardless of problems with the source
-  }
-  return read_source(*table, key, at, value.source);
+  Form found;
+  const bool is_valid = map_forms.read(node, at, found);
+  value = {of_key<MapValue::From>(map_keys, found.key), found.key.empty() && is_valid ? found.table.value.front() : 0.0,
+           found.source};  // where it is from also with a problem of the source
+  return is_valid;
 }
 std::string Value<MapValue>::write(const MapValue& value, const Rule&, const WriteContext& context) {
-  for (const MapKeyword& keyword : map_keywords) {
-    if (value.from == keyword.from) {
-      return write_source(keyword.key, value.source, context);
-    }
-  }
-  return number_text(value.number);
+  const char* key = map_keys[static_cast<std::size_t>(value.from)];
+  return value.from == MapValue::From::number ? number_text(value.number) : write_source(key, value.source, context);
 }
-json Value<MapValue>::schema(const Rule& rule) {
-  json any_of = json::array({Value<double>::schema(rule)});
-  for (const MapKeyword& keyword : map_keywords) {
-    any_of.push_back(source_schema(keyword.key));
-  }
-  return {{"anyOf", any_of}};
-}
+json Value<MapValue>::schema(const Rule& rule) { return map_forms.schema(rule); }
 
 // release time
-std::string Value<ReleaseTime>::type(const Rule& rule) {
-  return fmt::format("a number or {{ attribute = \"NAME\" }}{}", range_and_unit(rule));
-}
+std::string Value<ReleaseTime>::type(const Rule& rule) { return release_forms.type(rule); }
 bool Value<ReleaseTime>::read(const toml::node& node, const ValueReader& at, ReleaseTime& value) {
-  const toml::table* table = node.as_table();
-  if (table == nullptr) {
-    value = ReleaseTime{};
-    return at.number_in_range(node, value.number);
+  Form found;
+  if (!release_forms.read(node, at, found)) {
+    return false;
   }
-  const std::string key = only_key(*table, {"attribute"});
-  return key.empty() ? fail_keys(node, at) : read_source(*table, key, at, value.attribute);
+  value = {found.key.empty() ? found.table.value.front() : 0.0, found.source};
+  return true;
 }
 std::string Value<ReleaseTime>::write(const ReleaseTime& value, const Rule&, const WriteContext& context) {
   return value.attribute.empty() ? number_text(value.number) : write_source("attribute", value.attribute, context);
 }
-json Value<ReleaseTime>::schema(const Rule& rule) {
-  return {{"anyOf", json::array({Value<double>::schema(rule), source_schema("attribute")})}};
-}
+json Value<ReleaseTime>::schema(const Rule& rule) { return release_forms.schema(rule); }
 
 // heat boundary
 std::string Value<HeatBoundary>::type(const Rule&) {
@@ -327,24 +282,14 @@ bool Value<HeatBoundary>::read(const toml::node& node, const ValueReader& at, He
   return true;
 }
 std::string Value<HeatBoundary>::write(const HeatBoundary& value, const Rule&, const WriteContext&) {
-  switch (value.kind) {
-    case HeatBoundaryKind::temperature:
-      return fmt::format("{{ temperature = {} }}", number_text(value.value));
-    case HeatBoundaryKind::flux:
-      return fmt::format("{{ flux = {} }}", number_text(value.value));
-    case HeatBoundaryKind::insulated:
-      break;
-  }
-  return quoted("insulated");
+  const char* key = value.kind == HeatBoundaryKind::temperature ? "temperature" : "flux";
+  return value.kind == HeatBoundaryKind::insulated ? quoted("insulated")
+                                                   : fmt::format("{{ {} = {} }}", key, number_text(value.value));
 }
 json Value<HeatBoundary>::schema(const Rule&) {
-  const auto object = [](const char* key) {
-    return json{{"type", "object"},
-                {"additionalProperties", false},
-                {"required", json::array({key})},
-                {"properties", {{key, {{"type", "number"}}}}}};
-  };
-  return {{"anyOf", json::array({json{{"enum", json::array({"insulated"})}}, object("temperature"), object("flux")})}};
+  const json number{{"type", "number"}};
+  return {{"anyOf", json::array({json{{"enum", json::array({"insulated"})}}, object_schema("temperature", number),
+                                 object_schema("flux", number)})}};
 }
 
 }  // namespace thawslide::config
