@@ -17,6 +17,7 @@
 #include "config/case_output.hpp"
 #include "config/case_source.hpp"
 #include "physics/basal/parameter.hpp"
+#include "physics/mixture.hpp"
 #include "physics/options.hpp"
 
 namespace thawslide::config {
@@ -114,16 +115,26 @@ struct Terrain {
   NumberOrAuto smooth = {.is_auto = true};  // m, standard deviation of a Gaussian filter over the DEM; 0: none
 };
 
-struct Phases {
-  double rock_density = 2750, ice_density = 917, water_density = 1000;
-  double rock_heat_capacity = 858, ice_heat_capacity = 2040, water_heat_capacity = 4180;
-  double rock_conductivity = 3.0, ice_conductivity = 2.22, water_conductivity = 0.58;
-  double rock_expansion = 3e-5, ice_expansion = 5.1e-5, water_expansion = 2.75e-4;
+struct Phases : physics::Phases {
   WaterExpansionLaw water_expansion_law = WaterExpansionLaw::by_temperature;
-  double water_bulk_modulus = 1e9;
-  double latent_heat = 333.5e3;
-  double water_unit_weight = 9810;
-  double ice_to_rock_density_ratio = 1.0 / 3.0;  // Eq. 2 as rounded in the paper
+
+  Phases()
+      : physics::Phases{.rock_density = 2750,
+                        .ice_density = 917,
+                        .water_density = 1000,
+                        .rock_heat_capacity = 858,
+                        .ice_heat_capacity = 2040,
+                        .water_heat_capacity = 4180,
+                        .rock_conductivity = 3.0,
+                        .ice_conductivity = 2.22,
+                        .water_conductivity = 0.58,
+                        .rock_expansion = 3e-5,
+                        .ice_expansion = 5.1e-5,
+                        .water_expansion = 2.75e-4,
+                        .water_bulk_modulus = 1e9,
+                        .latent_heat = 333.5e3,
+                        .water_unit_weight = 9810,
+                        .ice_to_rock_density_ratio = 1.0 / 3.0} {}  // as rounded in the paper
 };
 
 struct Freezing {

@@ -41,27 +41,6 @@ mpm::BetweenBodies between_bodies(const config::Case& parameters, std::size_t bo
   return between;
 }
 
-physics::Phases make_phases(const config::Phases& p) {
-  physics::Phases phases;
-  phases.rock_density = p.rock_density;
-  phases.ice_density = p.ice_density;
-  phases.water_density = p.water_density;
-  phases.rock_heat_capacity = p.rock_heat_capacity;
-  phases.ice_heat_capacity = p.ice_heat_capacity;
-  phases.water_heat_capacity = p.water_heat_capacity;
-  phases.rock_conductivity = p.rock_conductivity;
-  phases.ice_conductivity = p.ice_conductivity;
-  phases.water_conductivity = p.water_conductivity;
-  phases.rock_expansion = p.rock_expansion;
-  phases.ice_expansion = p.ice_expansion;
-  phases.water_expansion = p.water_expansion;
-  phases.water_bulk_modulus = p.water_bulk_modulus;
-  phases.latent_heat = p.latent_heat;
-  phases.water_unit_weight = p.water_unit_weight;
-  phases.ice_to_rock_density_ratio = p.ice_to_rock_density_ratio;
-  return phases;
-}
-
 physics::Strength strength_of(const config::Material& material, double cell) {
   const double of_slip = physics::softening_strain_of_slip(material.softening_slip, cell);
   const double softening_strain = material.softening_slip > 0.0 ? of_slip : material.softening_strain;
@@ -293,7 +272,7 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.motion.gravity.setZero();
   model.motion.gravity[0] = parameters.general.gravity * std::sin(tilt);
   model.motion.gravity[Dim - 1] = -parameters.general.gravity * std::cos(tilt);
-  model.motion.phases = make_phases(parameters.phases);
+  model.motion.phases = static_cast<const physics::Phases&>(parameters.phases);
   model.motion.effective_stress = parameters.mechanics.effective_stress && parameters.pressure.enabled;
   model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
