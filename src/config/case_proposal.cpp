@@ -14,6 +14,7 @@
 #include "config/fitting_cell.hpp"
 #include "config/resolution.hpp"
 #include "config/rule.hpp"
+#include "config/site.hpp"
 #include "config/values.hpp"
 
 namespace thawslide::config {
@@ -83,28 +84,22 @@ double median_of(std::vector<double> thicknesses) {
 ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   ReleaseExtent extent;
   std::vector<double> thicknesses;
-  for (int row = 0; row < thickness.rows; ++row) {
-    for (int column = 0; column < thickness.columns; ++column) {
-      const double t = thickness.at(column, row);
-      if (!(t > 0.0)) {
-        continue;
-      }
-      const double x = thickness.x_of(column), y = thickness.y_of(row);
-      extent.volume += t * thickness.cell_x * thickness.cell_y;
-      thicknesses.push_back(t);
-      extent.west = std::min(extent.west, std::max(x - thickness.cell_x, dem.x));
-      extent.east = std::max(extent.east, std::min(x + thickness.cell_x, dem.x_end()));
-      extent.south = std::min(extent.south, std::max(y - thickness.cell_y, dem.y));
-      extent.north = std::max(extent.north, std::min(y + thickness.cell_y, dem.y_end()));
-      const Heights ground = heights_about(dem, x, y);
-      extent.bottom = std::min(extent.bottom, ground.lowest - t);
-      if (ground.highest + t > extent.top) {
-        extent.top = ground.highest + t;
-        extent.top_x = x;
-        extent.top_y = y;
-      }
+  for_points_of_release(thickness, [&](int column, int row) {
+    const double t = thickness.at(column, row), x = thickness.x_of(column), y = thickness.y_of(row);
+    extent.volume += t * thickness.cell_x * thickness.cell_y;
+    thicknesses.push_back(t);
+    extent.west = std::min(extent.west, std::max(x - thickness.cell_x, dem.x));
+    extent.east = std::max(extent.east, std::min(x + thickness.cell_x, dem.x_end()));
+    extent.south = std::min(extent.south, std::max(y - thickness.cell_y, dem.y));
+    extent.north = std::max(extent.north, std::min(y + thickness.cell_y, dem.y_end()));
+    const Heights ground = heights_about(dem, x, y);
+    extent.bottom = std::min(extent.bottom, ground.lowest - t);
+    if (ground.highest + t > extent.top) {
+      extent.top = ground.highest + t;
+      extent.top_x = x;
+      extent.top_y = y;
     }
-  }
+  });
   extent.thickness = thickness_of_half_the_volume(thicknesses);
   extent.median_thickness = median_of(std::move(thicknesses));
   return extent;
@@ -240,14 +235,6 @@ void propose_times(Proposal& proposal, double farthest) {
 
 namespace {
 
-std::string thickness_text(const MapValue& thickness) {
-  if (thickness.from == MapValue::From::number) {
-    return number_text(thickness.number);
-  }
-  const char* const kind = thickness.from == MapValue::From::attribute ? "attribute" : "raster";
-  return fmt::format("{{ {} = {} }}", kind, quoted(thickness.source));
-}
-
 double degrees_of(double rise) { return std::atan(rise) / degree; }
 
 std::string taper_text(const EdgeTaper& taper) {
@@ -264,10 +251,6 @@ std::string taper_text(const EdgeTaper& taper) {
       taper.is_cramped() ? fmt::format("; {} m is needed, but the release is too narrow", number_text(taper.wanted))
                          : "",
       number_text(taper.width));
-}
-
-std::string point_text(const Point& point) {
-  return fmt::format("[{}, {}, {}]", number_text(point[0]), number_text(point[1]), number_text(point[2]));
 }
 
 }  // namespace
@@ -315,16 +298,19 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
                                 : std::string()),
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text(input.base)),
       fmt::arg("substrates", substrate_tables(input.outlines)),
-      fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
-      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
+      fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", corner_text(proposal.min)),
+      fmt::arg("max", corner_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
       fmt::arg("filter", number_text(input.filter)),
       fmt::arg("release",
                input.release_file.empty() ? std::string() : fmt::format("release = {}\n", quoted(input.release_file))),
-      fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),
+      fmt::arg("given", Value<MapValue>::write(input.thickness, {}, {})),
+      fmt::arg("placement", is_cut ? "cut" : "on_top"),
       fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
                                         : "the DEM is the sliding surface; \"cut\": out of the DEM"));
   return text;
 }
+
+std::string corner_text(const Point& corner) { return Value<Point>::write(corner, {}, WriteContext{3, {}}); }
 
 std::string time_text(const Proposal& proposal) {
   return fmt::format(R"([time]

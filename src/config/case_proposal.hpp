@@ -76,6 +76,9 @@ void propose_cell(Proposal& proposal, int dimension, double cell = 0.0, Resoluti
 // Sets the end and the interval between snapshots; farthest: maximum travel distance [m].
 void propose_times(Proposal& proposal, double farthest);
 
+// Corner of a domain in 3D.
+[[nodiscard]] std::string corner_text(const Point& corner);
+
 // Table [time], without a trailing empty line.
 [[nodiscard]] std::string time_text(const Proposal& proposal);
 

@@ -54,6 +54,16 @@ double common_length(const std::vector<double>& lengths) {
 
 double times_off(double one, double other) { return std::max(one / other, other / one); }
 
+// Length over a whole number of parts: the first of few digits within the leeway of `first` parts, counted up or down.
+double few_digits_from(double length, double first, double step) {
+  for (double parts = first; parts >= 1.0 && times_off(parts, first) <= leeway; parts += step) {
+    if (has_few_digits(length / parts)) {
+      return of_few_digits(length / parts);
+    }
+  }
+  return length / first;
+}
+
 }  // namespace
 
 double round_down(double x) {
@@ -78,31 +88,13 @@ double fitting_cell(double most, double cell, const std::vector<double>& lengths
     return round_down(most);
   }
   const double largest = cell * common_cells(cell, lengths);
-  const double fewest = std::ceil(largest / most * (1.0 - 1e-9));
-  double parts = fewest;
-  while (parts <= leeway * fewest) {
-    if (has_few_digits(largest / parts)) {
-      return of_few_digits(largest / parts);
-    }
-    ++parts;
-  }
-  return largest / fewest;
+  return few_digits_from(largest, std::ceil(largest / most * (1.0 - 1e-9)), 1.0);
 }
 
 double fitting_cell_from(double least, double cell, const std::vector<double>& lengths) {
   const double largest = cell * common_cells(cell, lengths);
   const double most = std::floor(largest / least * (1.0 + 1e-9));
-  if (most < 1.0) {
-    return least;
-  }
-  double parts = most;
-  while (parts >= 1.0 && parts * leeway >= most) {
-    if (has_few_digits(largest / parts)) {
-      return of_few_digits(largest / parts);
-    }
-    --parts;
-  }
-  return largest / most;
+  return most < 1.0 ? least : few_digits_from(largest, most, -1.0);
 }
 
 double fitting_cell_near(double cell, const std::vector<double>& lengths) {

@@ -25,17 +25,11 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Throws UserError for a missing or unknown column, a row of another length, or an incomplete range.
+// Throws UserError for an unknown column, a row of another length, or an incomplete range.
 void check_columns(const TableCsv& table, const std::string& file) {
   std::vector<std::string> allowed = needed, absent;
   allowed.insert(allowed.end(), of_range.begin(), of_range.end());
-  for (const std::string& name : table.columns) {
-    if (!is_among(name, allowed)) {
-      const std::string near = nearest(shown(name), allowed);
-      throw UserError(fmt::format("{}:{}: no column is called '{}'{} allowed are {}", file, table.line, shown(name),
-                                  near.empty() ? "." : "; did you mean " + near + "?", comma_list(allowed)));
-    }
-  }
+  require_known_columns(table, file, allowed);
   for (const TableCsv::Row& row : table.rows) {
     if (row.cells.size() != table.columns.size()) {
       throw UserError(

@@ -3,20 +3,124 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "base/error.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
-#include "config/reported_quantities.hpp"
 #include "config/table_csv.hpp"
 
 namespace thawslide::config {
 
 namespace {
+
+struct ReportedUnit {
+  const char* name;
+  double factor = 1.0;  // to the first unit of its quantity
+  double offset = 0.0;
+};
+
+struct ReportedQuantity {
+  const char* name;
+  const std::vector<ReportedUnit>* units;
+  double low, high;  // allowed, in the first unit
+  bool is_of_a_time;
+};
+
+constexpr const char* sets_clock = "start_velocity";
+constexpr const char* reported_force = "max_seismic_force";
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double absolute_zero = -273.15;                       // C
+constexpr double shortest_period = 1e-3, longest_period = 1e5;  // s
+constexpr double degrees_per_radian = 57.29577951308232;
+
+// Number of digits with an optional decimal point between them, and nothing else.
+std::optional<double> plain_decimal(const std::string& text) {
+  constexpr const char* digits = "0123456789";
+  const std::size_t point = text.find('.');
+  const auto is_whole = [&](const std::string& part) {
+    return !part.empty() && part.find_first_not_of(digits) == std::string::npos;
+  };
+  if (!is_whole(text.substr(0, point)) || (point != std::string::npos && !is_whole(text.substr(point + 1)))) {
+    return std::nullopt;
+  }
+  double value = infinity;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+// Periods [s] in NAME_35_150_s, a force between periods.
+std::optional<std::pair<double, double>> periods_of(const std::string& name) {
+  const std::string prefix = std::string(reported_force) + "_", suffix = "_s";
+  if (name.size() <= prefix.size() + suffix.size() || name.compare(0, prefix.size(), prefix) != 0 ||
+      name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0) {
+    return std::nullopt;
+  }
+  const std::string between = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+  const std::size_t parting = between.find('_');
+  if (parting == std::string::npos) {
+    return std::nullopt;
+  }
+  const auto shortest = plain_decimal(between.substr(0, parting)), longest = plain_decimal(between.substr(parting + 1));
+  return shortest && longest ? std::optional(std::pair(*shortest, *longest)) : std::nullopt;
+}
+
+const std::vector<ReportedQuantity>& reported_quantities() {
+  static const std::vector<ReportedUnit> length{{"m"}, {"km", 1e3}, {"cm", 1e-2}}, speed{{"m/s"}, {"km/h", 1.0 / 3.6}},
+      temperature{{"C"}, {"degC"}, {"°C"}, {"K", 1.0, absolute_zero}},
+      force{{"N"}, {"kN", 1e3}, {"MN", 1e6}, {"GN", 1e9}, {"TN", 1e12}},
+      pressure{{"Pa"}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}},
+      area{{"m2"}, {"m²"}, {"ha", 1e4}, {"km2", 1e6}, {"km²", 1e6}},
+      volume{{"m3"}, {"m³"}, {"million m3", 1e6}, {"million m³", 1e6}, {"km3", 1e9}, {"km³", 1e9}},
+      angle{{"degrees"}, {"deg"}, {"°"}, {"rad", degrees_per_radian}}, fraction{{"-"}, {"1"}, {""}, {"%", 1e-2}};
+  static const std::vector<ReportedQuantity> all{
+      {sets_clock, &speed, 0.0, infinity, false},
+      {"mean_velocity", &speed, 0.0, infinity, true},
+      {"mean_displacement", &length, 0.0, infinity, true},
+      {"front_distance", &length, 0.0, infinity, true},
+      {"band_SL", &fraction, 0.0, 1.0, true},
+      {"band_saturation", &fraction, 0.0, 1.0, true},
+      {"band_temperature", &temperature, absolute_zero, infinity, true},
+      {"band_pore_pressure", &pressure, -infinity, infinity, true},
+      {"band_friction_coefficient", &fraction, 0.0, infinity, true},
+      {reported_force, &force, 0.0, infinity, false},
+      {"source_volume", &volume, 0.0, infinity, false},
+      {"source_mean_thickness", &length, 0.0, infinity, false},
+      {"deposit_volume", &volume, 0.0, infinity, false},
+      {"deposit_area", &area, 0.0, infinity, false},
+      {"travel_distance", &length, 0.0, infinity, false},
+      {"drop_height", &length, -infinity, infinity, false},
+      {"angle_of_reach", &angle, -90.0, 90.0, false},
+  };
+  return all;
+}
+
+// Null for an unknown name. A force between periods, max_seismic_force_35_150_s, is a force.
+const ReportedQuantity* reported_quantity(const std::string& name) {
+  const std::string plain = periods_of(name) ? reported_force : name;
+  const auto& all = reported_quantities();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& each) { return plain == each.name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// Mistake in the periods of such a force; empty if there is none, or no periods.
+std::string mistake_in_periods(const std::string& name) {
+  const auto periods = periods_of(name);
+  if (!periods ||
+      (shortest_period <= periods->first && periods->first < periods->second && periods->second <= longest_period)) {
+    return "";
+  }
+  return fmt::format("{}: give the shorter period first, both from {:g} to {:g} s", name, shortest_period,
+                     longest_period);
+}
 
 const std::vector<std::string> needed{"quantity", "value", "unit"};
 const std::map<std::string, double> seconds_of{{"time_s", 1.0}, {"time_min", 60.0}, {"time_h", 3600.0}};
@@ -25,11 +129,6 @@ const std::vector<std::string> kinds{"observation", "model", "assumption"};
 
 std::string format_unit(const std::string& unit) {
   return unit.empty() || unit == "-" || unit == "1" ? "" : " " + unit;
-}
-
-std::string hint(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearest(shown(word), known);
-  return near.empty() ? "." : "; did you mean " + near + "?";
 }
 
 class TargetsReader {
@@ -57,13 +156,10 @@ class TargetsReader {
   }
 
   void set_columns(const TableCsv& table) {
+    require_known_columns(table, file_, allowed);
     std::vector<std::string> times;
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       const std::string& name = table.columns[k];
-      if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
-        throw UserError(fmt::format("{}:{}: no column is called {}{} allowed are {}", file_, table.line,
-                                    in_quotes(name), hint(name, allowed), comma_list(allowed)));
-      }
       if (seconds_of.count(name) > 0) {
         times.push_back(name);
       }
@@ -119,7 +215,7 @@ class TargetsReader {
       }
       return fmt::format(
           "no quantity is called {}{} There are: {}; and {}_35_150_s for a force between periods of 35 and 150 s",
-          in_quotes(name), hint(name, known), comma_list(known), reported_force);
+          in_quotes(name), hint_of(name, known), comma_list(known), reported_force);
     }
     const std::string& unit_name = row.cells[column_.at("unit")];
     const auto& units = *quantity->units;
@@ -209,6 +305,8 @@ std::string warning_of_late_values(const Case& parameters) {
                             late.size() == 1 ? "is" : "are", parameters.time.end, late.front().quantity,
                             late.front().time, late.front().line, late.size() == 1 ? "it" : "them");
 }
+
+bool is_reported_quantity(const std::string& name) { return reported_quantity(name) != nullptr; }
 
 ReportedValues read_reported_values(const std::filesystem::path& file) { return TargetsReader(file.string()).read(); }
 

@@ -24,6 +24,9 @@ struct ReportedValues {
   std::vector<std::string> mistakes;  // each with file and line
 };
 
+// True for the name of a quantity, and for a force between periods, such as max_seismic_force_35_150_s.
+[[nodiscard]] bool is_reported_quantity(const std::string& name);
+
 // Reads all valid rows. The column kind marks each value as an observation, the result of another model or an
 // assumption, which reports distinguish.
 ReportedValues read_reported_values(const std::filesystem::path& file);

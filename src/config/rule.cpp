@@ -43,33 +43,6 @@ std::string Usual::text(const std::string& unit) const {
                         : "";
 }
 
-Range above(double low) {
-  Range range;
-  range.low = low;
-  range.low_open = true;
-  return range;
-}
-
-Range at_least(double low) {
-  Range range;
-  range.low = low;
-  return range;
-}
-
-Range between(double low, double high) {
-  Range range;
-  range.low = low;
-  range.high = high;
-  return range;
-}
-
-Range inside(double low, double high) {
-  Range range = between(low, high);
-  range.low_open = true;
-  range.high_open = true;
-  return range;
-}
-
 std::string plain_number(double value) { return fmt::format("{}", value); }
 
 std::string number_text(double value) {

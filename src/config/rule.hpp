@@ -20,12 +20,12 @@ struct Range {
   [[nodiscard]] std::string text() const;
 };
 
-Range above(double low);
-Range at_least(double low);
+inline Range above(double low) { return {.low = low, .low_open = true}; }
+inline Range at_least(double low) { return {.low = low}; }
 // Both ends included.
-Range between(double low, double high);
+inline Range between(double low, double high) { return {.low = low, .high = high}; }
 // Both ends excluded.
-Range inside(double low, double high);
+inline Range inside(double low, double high) { return {low, high, true, true}; }
 
 // Usual range of a number. Values outside it are allowed but reported. The ranges are assumptions.
 struct Usual {

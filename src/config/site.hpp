@@ -30,6 +30,18 @@ struct Release {
   Raster claim;  // fraction of each point's cell within the outline; beyond all outlines, within reach of its taper
 };
 
+// Calls visit(column, row) for the points of positive thickness.
+template <class Visit>
+void for_points_of_release(const Raster& thickness, const Visit& visit) {
+  for (int row = 0; row < thickness.rows; ++row) {
+    for (int column = 0; column < thickness.columns; ++column) {
+      if (thickness.at(column, row) > 0.0) {
+        visit(column, row);
+      }
+    }
+  }
+}
+
 // Extent of a substrate from maps.
 struct SubstrateArea {
   std::vector<Polyline2> rings;         // closed: outlines and their holes; empty for a raster
@@ -59,7 +71,17 @@ struct Roughness {
 
 // By the names used in JSON files.
 using NamedFigures = std::vector<std::pair<std::string, double>>;
-[[nodiscard]] NamedFigures named(const Roughness& ground);
+[[nodiscard]] inline NamedFigures named(const Roughness& ground) {
+  return {{"noise_m", ground.noise},
+          {"noise_cells", ground.noise / ground.cell},
+          {"spacing_m", ground.spacing},
+          {"bump_length_m", ground.bump_length},
+          {"bump_slope", ground.bump_slope},
+          {"filter_m", ground.width},
+          {"remaining_slope", ground.remaining_slope},
+          {"apparent_friction", ground.apparent_friction},
+          {"narrow_valley_m", ground.narrow_valley}};
+}
 
 struct Site {
   std::shared_ptr<const Raster> ground;            // sliding surface, after excavation of releases; null: no raster
@@ -81,6 +103,8 @@ struct Site {
 };
 
 // Profile of a case with terrain.type "profile": that of the site, otherwise the contents of terrain.file.
-[[nodiscard]] ProfileTable profile_of(const Case& parameters, const Site& site);
+[[nodiscard]] inline ProfileTable profile_of(const Case& parameters, const Site& site) {
+  return site.profile.empty() ? read_profile(parameters.terrain.file) : site.profile;
+}
 
 }  // namespace thawslide::config

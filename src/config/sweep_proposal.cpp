@@ -29,11 +29,8 @@ std::string cells_text(const std::optional<Proposal>& quick) {
   if (!quick) {
     return "";
   }
-  const auto point = [](const Point& corner) {
-    return fmt::format("[{}, {}, {}]", number_text(corner[0]), number_text(corner[1]), number_text(corner[2]));
-  };
   return fmt::format("\"grid.cell\" = {}  # m, of `quick`\n\"grid.min\" = {}\n\"grid.max\" = {}\n",
-                     number_text(quick->cell), point(quick->min), point(quick->max));
+                     number_text(quick->cell), corner_text(quick->min), corner_text(quick->max));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
+#include "config/problems.hpp"
 #include "config/text_file.hpp"
 
 namespace thawslide::config {
@@ -167,6 +168,20 @@ TableCsv read_table_csv(const fs::path& file, const std::vector<std::string>& ne
     throw UserError(fmt::format("{}: empty; expected the columns {}", name, fmt::join(needed, ", ")));
   }
   return table;
+}
+
+std::string hint_of(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest(shown(word), known);
+  return near.empty() ? "." : "; did you mean " + near + "?";
+}
+
+void require_known_columns(const TableCsv& table, const std::string& file, const std::vector<std::string>& allowed) {
+  for (const std::string& name : table.columns) {
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
+      throw UserError(fmt::format("{}:{}: no column is called {}{} allowed are {}", file, table.line, in_quotes(name),
+                                  hint_of(name, allowed), comma_list(allowed)));
+    }
+  }
 }
 
 std::string read_finite_number(const std::string& cell, double& value) {

@@ -21,6 +21,11 @@ struct TableCsv {
 // a column that is `needed`, or has one twice. Rows may have more or fewer cells than there are columns.
 TableCsv read_table_csv(const std::filesystem::path& file, const std::vector<std::string>& needed, double max_bytes);
 
+// Throws UserError for a column that is not allowed.
+void require_known_columns(const TableCsv& table, const std::string& file, const std::vector<std::string>& allowed);
+// Text such as "; did you mean value?", or ".".
+[[nodiscard]] std::string hint_of(const std::string& word, const std::vector<std::string>& known);
+
 // Reads the finite number of a cell; returns the problem, "" if there is none.
 std::string read_finite_number(const std::string& cell, double& value);
 
