@@ -3,16 +3,9 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/instances.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
-
-template <int Dim>
-bool Simulation<Dim>::needs_settling() const {
-  return setup_.parameters.mechanics.enabled &&
-         setup_.parameters.mechanics.initial_stress == config::InitialStress::settle;
-}
 
 template <int Dim>
 bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
@@ -68,10 +61,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   return true;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                       \
-  template bool Simulation<Dim>::needs_settling() const; \
-  template bool Simulation<Dim>::settle(const std::function<bool()>&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template bool Simulation<2>::settle(const std::function<bool()>&);
+template bool Simulation<3>::settle(const std::function<bool()>&);
 
 }  // namespace thawslide::sim

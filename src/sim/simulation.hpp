@@ -35,7 +35,10 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   // True if the case applies gravity before t = 0, with damping and on a fixed base.
-  [[nodiscard]] bool needs_settling() const;
+  [[nodiscard]] bool needs_settling() const {
+    return setup_.parameters.mechanics.enabled &&
+           setup_.parameters.mechanics.initial_stress == config::InitialStress::settle;
+  }
   // Settles the initial stress; afterwards everything but the stress is as at the start. Does nothing if the case does
   // not request it. may_continue: called before each step; if it returns false, settling is aborted, false is returned,
   // and the run cannot continue. Throws RunError if a particle becomes invalid.
@@ -75,11 +78,15 @@ class Simulation {
   [[nodiscard]] bool ends_at_rest() const {
     return setup_.parameters.time.stop_at_rest > 0.0 && monitor_.has_moved > 0.0 && is_at_rest();
   }
-  [[nodiscard]] std::string rest_text() const { return sim::rest_text(setup_, moved_mass().has_moved, monitor_); }
+  [[nodiscard]] std::string rest_text() const {
+    return sim::rest_text(setup_.parameters.time, moved_mass().has_moved, monitor_);
+  }
   // Restarts the period of time.rest_time for a slide at rest.
   void restart_rest_time() { monitor_.rest_since = -1.0; }
   // Warning of slow unexplained energy growth by more than guards.energy_growth; empty if there is none.
-  [[nodiscard]] std::string energy_warning() const { return sim::energy_warning(setup_, clock_.time, monitor_); }
+  [[nodiscard]] std::string energy_warning() const {
+    return sim::energy_warning(setup_.parameters.guards, clock_.time, monitor_);
+  }
   [[nodiscard]] const Removed& removed() const { return removed_; }
   // Warning that mechanics.split_limit prevents further splitting; empty if it does not.
   [[nodiscard]] std::string split_warning() const { return sim::split_warning(setup_, *slide_, clock_.time); }

@@ -175,9 +175,7 @@ std::string rest_rule(const Setup<Dim>& setup) {
                      or_from_start, after_event, 100.0 * moving_fraction_at_rest, rest_speed(times));
 }
 
-template <int Dim>
-std::string rest_text(const Setup<Dim>& setup, bool has_moved, const RunMonitor& monitor) {
-  const config::Time& times = setup.parameters.time;
+std::string rest_text(const config::Time& times, bool has_moved, const RunMonitor& monitor) {
   if (!has_moved) {
     return fmt::format("{}: no more than {:g} % of its mass has travelled {:g} m (time.moved_distance)", not_moved,
                        100.0 * mpm::fraction_ahead_of_front, times.moved_distance);
@@ -187,9 +185,8 @@ std::string rest_text(const Setup<Dim>& setup, bool has_moved, const RunMonitor&
       at_rest, monitor.rest_since, 100.0 * moving_fraction_at_rest, times.stop_at_rest);
 }
 
-template <int Dim>
-std::string energy_warning(const Setup<Dim>& setup, double time, const RunMonitor& monitor) {
-  if (monitor.made_fraction <= setup.parameters.guards.energy_growth) {
+std::string energy_warning(const config::Guards& guards, double time, const RunMonitor& monitor) {
+  if (monitor.made_fraction <= guards.energy_growth) {
     return "";
   }
   return fmt::format(
@@ -208,9 +205,7 @@ std::string energy_warning(const Setup<Dim>& setup, double time, const RunMonito
   template void update_rest<Dim>(const Setup<Dim>&, double, const mpm::MonitorSums&, const Solver<Dim>&, \
                                  const Slide<Dim>&, RunMonitor&);                                        \
   template bool is_at_rest<Dim>(const Setup<Dim>&, const Clock&, const RunMonitor&);                     \
-  template std::string rest_rule<Dim>(const Setup<Dim>&);                                                \
-  template std::string rest_text<Dim>(const Setup<Dim>&, bool, const RunMonitor&);                       \
-  template std::string energy_warning<Dim>(const Setup<Dim>&, double, const RunMonitor&);
+  template std::string rest_rule<Dim>(const Setup<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

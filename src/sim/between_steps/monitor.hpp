@@ -81,11 +81,9 @@ template <int Dim>
 [[nodiscard]] std::string rest_rule(const Setup<Dim>& setup);
 
 // Time since when the slide is at rest, as text.
-template <int Dim>
-[[nodiscard]] std::string rest_text(const Setup<Dim>& setup, bool has_moved, const RunMonitor& monitor);
+[[nodiscard]] std::string rest_text(const config::Time& times, bool has_moved, const RunMonitor& monitor);
 
 // Warning of slow unexplained energy growth by more than guards.energy_growth; empty if there is none.
-template <int Dim>
-[[nodiscard]] std::string energy_warning(const Setup<Dim>& setup, double time, const RunMonitor& monitor);
+[[nodiscard]] std::string energy_warning(const config::Guards& guards, double time, const RunMonitor& monitor);
 
 }  // namespace thawslide::sim

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "base/linear.hpp"
-#include "sim/setup/setup.hpp"
-#include "sim/solver/slide.hpp"
 
 namespace thawslide::sim {
 
@@ -22,10 +19,5 @@ struct NewParticle {
   SymmetricTensor<double> stress = SymmetricTensor<double>::Zero();  // total [Pa]
   double heat = 0;  // in addition to the heat content at its temperature [J]: it warms or melts the particle
 };
-
-// Appends them with new ids, with mass and heat content. They are in no band until the next step. Returns the index in
-// memory of the first.
-template <int Dim>
-std::size_t append_particles(const std::vector<NewParticle<Dim>>& joining, const Model<Dim>& model, Slide<Dim>& slide);
 
 }  // namespace thawslide::sim

@@ -1,6 +1,7 @@
-// Band below the rigid block: a column of particles, one per row, at rest on a separate grid. The stages of the MPM
-// step conduct their heat and drain their pore pressure. Each particle lies midway between the two lower and the two
-// upper nodes of its cell. Both nodes of a pair therefore hold the same values, and no lateral flux occurs.
+// Band below the rigid block: a band column, or a column of particles, one per row, at rest on a separate grid. The
+// stages of the MPM step conduct their heat and drain their pore pressure. Each particle lies midway between the two
+// lower and the two upper nodes of its cell. Both nodes of a pair therefore hold the same values, and no lateral flux
+// occurs.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "band/flow_depth.hpp"
+#include "band/segment_step.hpp"
 #include "mpm/nodes.hpp"
 
 namespace thawslide::sim {
@@ -60,6 +62,25 @@ class BlockColumn {
   band::FlowDepth<2> flow_depth_;
   std::vector<mpm::NodeAt> base_nodes_;
   double thickness_;
+};
+
+// One band column (band/segment_step.hpp): a basal segment of 1 m2 that does not stretch.
+class BlockBandColumn {
+ public:
+  // load: initial normal pressure [Pa]; column_step: maximum time step of the column [s].
+  BlockBandColumn(const band::ColumnsModel& model, double thickness, double load, double column_step);
+
+  // Returns the heat gained by the column [J/m2], including heat that is pending until its next step.
+  double step(const BlockDrive& drive);
+  // Basal state for the basal law under a normal pressure [Pa].
+  [[nodiscard]] BlockBase base(double normal_pressure) const;
+  [[nodiscard]] BlockBand band() const;
+  [[nodiscard]] const band::BasalSegment<2>& segment() const { return segment_; }
+
+ private:
+  band::ColumnsModel model_;
+  band::BasalSegment<2> segment_;
+  double column_step_, waiting_ = 0.0;
 };
 
 }  // namespace thawslide::sim

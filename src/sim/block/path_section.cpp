@@ -8,11 +8,9 @@
 #include "base/rounding.hpp"
 #include "base/table.hpp"
 #include "sim/block/section.hpp"
-#include "sim/block/steepest_descent.hpp"
 #include "sim/checks/valley_factor.hpp"
 #include "sim/maps/path_line.hpp"
 #include "sim/setup/release_body.hpp"
-#include "sim/setup/release_extent.hpp"
 #include "sim/setup/substrates.hpp"
 #include "terrain/height_field.hpp"
 
@@ -26,13 +24,9 @@ constexpr double step_width = 1e-6;   // fraction of a cell over which the thick
 // Calls visit(x, y, thickness) for points of positive thickness.
 template <class Visit>
 void for_points(const Raster& thickness, const Visit& visit) {
-  for (int row = 0; row < thickness.rows; ++row) {
-    for (int column = 0; column < thickness.columns; ++column) {
-      if (thickness.at(column, row) > 0.0) {
-        visit(thickness.x_of(column), thickness.y_of(row), thickness.at(column, row));
-      }
-    }
-  }
+  config::for_points_of_release(thickness, [&](int column, int row) {
+    visit(thickness.x_of(column), thickness.y_of(row), thickness.at(column, row));
+  });
 }
 
 // Release projected onto the path.

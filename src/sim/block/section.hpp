@@ -1,6 +1,11 @@
-// Vertical section through the ground and a release along a line, from which a 2D case is made.
+// Vertical section through the ground and a release along a line, from which a 2D case is made, and the line of
+// steepest descent from a point of a DEM:
+//    dx/ds = -grad z/|grad z|
+// The gradient is averaged over a square around the point, so that narrow furrows do not divert the line. The step is a
+// tenth of the square's side (Euler's method).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +13,15 @@
 #include "sim/maps/path_line.hpp"
 
 namespace thawslide::sim {
+
+struct Descent {
+  PathLine line;              // corners a width apart, and the end; empty if nothing is lower than the start
+  std::optional<Point2> pit;  // closed depression in which the line ends: the ground rises in all directions
+};
+
+// width: of the square [m]. The line ends where the square reaches beyond the known ground, or in a closed depression,
+// where it descends no further within four widths.
+[[nodiscard]] Descent steepest_descent(const Raster& ground, const Point2& start, double width);
 
 // Distances along the line [m]: `from`, `to`, the distinct corners between them, and intermediate stations so that none
 // are farther apart than `spacing`.

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/instances.hpp"
 #include "base/parallel.hpp"
 
 namespace thawslide::sim {
@@ -108,10 +107,9 @@ std::vector<std::string> warnings_of_steep_terrain(const Simulation<Dim>& simula
   return warnings;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                         \
-  template std::vector<std::string> warnings_of_steep_terrain<Dim>(const Simulation<Dim>&, \
-                                                                   const std::vector<BodyFigures>&, const Raster&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template std::vector<std::string> warnings_of_steep_terrain(const Simulation<2>&, const std::vector<BodyFigures>&,
+                                                            const Raster&);
+template std::vector<std::string> warnings_of_steep_terrain(const Simulation<3>&, const std::vector<BodyFigures>&,
+                                                            const Raster&);
 
 }  // namespace thawslide::sim

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "sim/checks/steep_terrain.hpp"
@@ -316,10 +315,7 @@ std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<Dim>& s
   return warnings;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                              \
-  template std::vector<std::string> warnings_of_unresolved_terrain<Dim>(const Simulation<Dim>&, \
-                                                                        const std::vector<BodyFigures>&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<2>&, const std::vector<BodyFigures>&);
+template std::vector<std::string> warnings_of_unresolved_terrain(const Simulation<3>&, const std::vector<BodyFigures>&);
 
 }  // namespace thawslide::sim

@@ -232,10 +232,7 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
     const std::size_t first = colours_[c];
     parallel_for(colours_[c + 1] - first, [&](std::size_t k) { add_stack(grid, particles, stacks_[first + k]); });
   }
-  if (segments != nullptr) {
-    std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
-  }
-  update_cells(time);
+  update_cells(time, segments);
 }
 
 void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
@@ -251,14 +248,14 @@ void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<
     window_tiles_.push_back(&tile);
   }
   mark_active();
-  if (segments != nullptr) {
-    std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
-  }
-  update_cells(time);
+  update_cells(time, segments);
 }
 
-// Records the sums of the active tiles and resets them.
-void FlowMaps::update_cells(double time) {
+// Adds the segments, records the sums of the active tiles and resets them.
+void FlowMaps::update_cells(double time, const std::vector<SegmentBelow>* segments) {
+  for (std::size_t k = 0; segments != nullptr && k < segments->size(); ++k) {
+    add_segment((*segments)[k]);
+  }
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];
     for (std::size_t index = 0; index < tile_cells; ++index) {

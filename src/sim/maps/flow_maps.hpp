@@ -110,7 +110,7 @@ class FlowMaps {
   void create_tiles(const Grid& grid);
   void set_window(const Grid& grid, Stack& stack);
   void mark_active();
-  void update_cells(double time);
+  void update_cells(double time, const std::vector<SegmentBelow>* segments);
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
   void add_segment(const SegmentBelow& segment);
   void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/instances.hpp"
-
 namespace thawslide::sim {
 
 template <int Dim>
@@ -35,8 +33,7 @@ NamedNumbers base_table(const Simulation<Dim>& simulation) {
   return table;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim) template NamedNumbers base_table<Dim>(const Simulation<Dim>&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template NamedNumbers base_table<2>(const Simulation<2>&);
+template NamedNumbers base_table<3>(const Simulation<3>&);
 
 }  // namespace thawslide::sim

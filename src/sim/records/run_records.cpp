@@ -10,7 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "device/solver.hpp"
-#include "sim/setup/release_extent.hpp"
+#include "sim/setup/release_body.hpp"
 
 namespace thawslide::sim {
 
@@ -61,6 +61,19 @@ std::vector<config::Polyline2> corners_at_start(const config::Case& parameters,
 }
 
 }  // namespace
+
+double angle_of_reach(double drop_height, double travel_distance) {
+  constexpr double degrees_per_radian = 57.29577951308232;
+  return travel_distance > 0.0 ? degrees_per_radian * std::atan2(drop_height, travel_distance) : unknown;
+}
+
+std::vector<std::pair<std::string, double>> named(const RunFigures& figures) {
+  return {{"covered_volume_m3", figures.covered_volume},  {"covered_area_m2", figures.covered_area},
+          {"affected_area_m2", figures.affected_area},    {"deposit_area_m2", figures.deposit_area},
+          {"inundated_area_m2", figures.inundated_area},  {"front_distance_m", figures.front_distance},
+          {"travel_distance_m", figures.travel_distance}, {"drop_height_m", figures.drop_height},
+          {"reach_angle_degrees", figures.reach_angle}};
+}
 
 template <int Dim>
 RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& site)

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "sim/setup/body_shape.hpp"
 #include "sim/setup/initial_state.hpp"
@@ -354,9 +353,7 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim) \
-  template void fill_bodies<Dim>(const config::Case&, const config::Site&, const Model<Dim>&, mpm::Particles<Dim>&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template void fill_bodies(const config::Case&, const config::Site&, const Model<2>&, mpm::Particles<2>&);
+template void fill_bodies(const config::Case&, const config::Site&, const Model<3>&, mpm::Particles<3>&);
 
 }  // namespace thawslide::sim

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/instances.hpp"
-
 namespace thawslide::sim {
 
 namespace {
@@ -63,9 +61,7 @@ band::ColumnsModel make_columns_model(const config::Case& parameters, const Mode
   return columns;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim) \
-  template band::ColumnsModel make_columns_model<Dim>(const config::Case&, const Model<Dim>&, const ColumnMaterial&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template band::ColumnsModel make_columns_model(const config::Case&, const Model<2>&, const ColumnMaterial&);
+template band::ColumnsModel make_columns_model(const config::Case&, const Model<3>&, const ColumnMaterial&);
 
 }  // namespace thawslide::sim

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/instances.hpp"
 #include "config/basal_laws.hpp"
 #include "config/body_layers.hpp"
 #include "physics/softening.hpp"
@@ -317,8 +316,7 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   return model;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim) template Model<Dim> make_model<Dim>(const config::Case&, const config::Site&);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
+template Model<2> make_model<2>(const config::Case&, const config::Site&);
+template Model<3> make_model<3>(const config::Case&, const config::Site&);
 
 }  // namespace thawslide::sim

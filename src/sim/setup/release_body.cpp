@@ -58,6 +58,35 @@ double nearest_value(const Raster& raster, double x, double y) {
   return value;
 }
 
+config::Polyline2 corners_of(const config::Release& release) {
+  config::Polyline2 corners;
+  for (const config::Polyline2& ring : release.outlines) {
+    corners.insert(corners.end(), ring.begin(), ring.end());
+  }
+  const Raster& t = release.thickness;
+  const auto add_cell = [&](int column, int row) {
+    for (const double i : {-0.5, 0.5}) {
+      for (const double j : {-0.5, 0.5}) {
+        corners.push_back({t.x + (column + i) * t.cell_x, t.y + (row + j) * t.cell_y});
+      }
+    }
+  };
+  if (release.outlines.empty()) {
+    config::for_points_of_release(t, add_cell);
+  }
+  return corners;
+}
+
+double top_of(const config::Release& release, const Raster& ground) {
+  const Raster& thickness = release.thickness;
+  double top = -HUGE_VAL;
+  config::for_points_of_release(thickness, [&](int column, int row) {
+    const double height = bilinear(ground, thickness.x_of(column), thickness.y_of(row), Missing::nothing);
+    top = std::fmax(top, height + thickness.at(column, row));
+  });
+  return top;
+}
+
 double ReleaseBody::bottom(double x, double y) const {
   return ground_->height(Vector<double, 2>(x - origin_[0], y - origin_[1])) + origin_[2];
 }

@@ -14,6 +14,12 @@ namespace thawslide::sim {
 // Value of the nearest raster point that has one; throws UserError if none of the adjacent points has one.
 double nearest_value(const Raster& raster, double x, double y);
 
+// Corners that bound a release in the map: those of its outlines, or of the cells of its raster.
+[[nodiscard]] config::Polyline2 corners_of(const config::Release& release);
+
+// Elevation of the highest point of a release on the ground [m].
+[[nodiscard]] double top_of(const config::Release& release, const Raster& ground);
+
 class ReleaseBody {
  public:
   using Releases = std::map<std::string, config::Release>;

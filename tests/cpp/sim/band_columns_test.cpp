@@ -13,7 +13,7 @@
 #include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "sim/block/block.hpp"
-#include "sim/block/block_band_column.hpp"
+#include "sim/block/block_column.hpp"
 #include "sim/records/base_table.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"

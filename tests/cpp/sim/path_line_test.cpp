@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/records/run_figures.hpp"
+#include "sim/records/run_records.hpp"
 
 namespace thawslide::sim {
 namespace {

@@ -13,7 +13,7 @@
 #include "../support/small_terrain.hpp"
 #include "physics/basal/laws.hpp"
 #include "sim/block/block.hpp"
-#include "sim/block/steepest_descent.hpp"
+#include "sim/block/section.hpp"
 
 namespace thawslide::sim {
 namespace {
