@@ -27,16 +27,16 @@ namespace fs = std::filesystem;
 
 void fail_without_gis(const std::string& file) {
   throw UserError(
-      fmt::format("{}: this build of thawslide cannot read maps: it was made without GDAL. Install libgdal-dev and "
-                  "build again (`./run --setup`).",
-                  file));
+      "{}: this build of thawslide cannot read maps: it was made without GDAL. Install libgdal-dev and build again "
+      "(`./run --setup`).",
+      file);
 }
 
 void require_utf8(const std::string& what, const std::string& name) {
   try {
     (void)nlohmann::json(name).dump();  // throws for anything but UTF-8
   } catch (const nlohmann::json::type_error&) {
-    throw UserError(fmt::format("{}: '{}' is not UTF-8, as required for names in a case file. Rename it.", what, name));
+    throw UserError("{}: '{}' is not UTF-8, as required for names in a case file. Rename it.", what, name);
   }
 }
 
@@ -48,7 +48,7 @@ gis::Rectangle span_of_dem(const std::string& dem) {
   try {
     return gis::span_of_points(gis::RasterFile(dem, gis::Quantity::length).layout());
   } catch (const UserError& error) {
-    throw UserError(fmt::format("--dem: {}", error.what()));
+    throw UserError("--dem: {}", error.what());
   }
 }
 
@@ -110,9 +110,8 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
   if (!maps.release.empty() && gis::is_raster_file(maps.release) && fs::is_regular_file(maps.dem) &&
       !gis::is_raster_file(maps.dem)) {
     throw UserError(
-        fmt::format("--dem: {} is not a raster, and {} is one: the DEM and the release are swapped. Give "
-                    "--dem {} --release {}.",
-                    maps.dem, maps.release, maps.release, maps.dem));
+        "--dem: {} is not a raster, and {} is one: the DEM and the release are swapped. Give --dem {} --release {}.",
+        maps.dem, maps.release, maps.release, maps.dem);
   }
   const gis::Rectangle span = span_of_dem(maps.dem);
   config::Case trial;
@@ -134,10 +133,10 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
   body.shape = config::BodyShape::release;
   if (gis::is_raster_file(maps.release)) {
     if (maps.thickness > 0.0) {
-      throw UserError(fmt::format(
-          "--thickness: {} is a raster, whose values are the thickness in metres; leave --thickness out, or "
-          "give polygons to --release.",
-          maps.release));
+      throw UserError(
+          "--thickness: {} is a raster, whose values are the thickness in metres; leave --thickness out, or give "
+          "polygons to --release.",
+          maps.release);
     }
     body.thickness = {config::MapValue::From::raster, 0.0, maps.release};
   } else {
@@ -212,10 +211,8 @@ config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
     const auto degrees = [](double rise) { return std::atan(rise) * 180.0 / std::numbers::pi; };
     fmt::print(
         "warning: --cut: the edges of the cut are too narrow, because the release is narrow or near the edge of the "
-        "known "
-        "terrain (found {1:g} m; needed {0:g} m). They rise by up to {2:.0f} degrees against the terrain, which falls "
-        "by "
-        "{3:.0f} degrees, and may stop the slide. Use --on-top, which has no such edges\n",
+        "known terrain (found {1:g} m; needed {0:g} m). They rise by up to {2:.0f} degrees against the terrain, which "
+        "falls by {3:.0f} degrees, and may stop the slide. Use --on-top, which has no such edges\n",
         taper.wanted, taper.width, degrees(taper.steepest), degrees(taper.slope));
   }
   trial.bodies.at(body_name).taper = taper.width;
@@ -230,12 +227,12 @@ std::string title_of(const fs::path& folder) {
 
 void make_new_folder(const fs::path& folder) {
   if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder))) {
-    throw UserError(fmt::format("{}: it exists and is not an empty folder. Choose another name.", folder.string()));
+    throw UserError("{}: it exists and is not an empty folder. Choose another name.", folder.string());
   }
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) {
-    throw UserError(fmt::format("{}: the folder cannot be created ({}).", folder.string(), failed.message()));
+    throw UserError("{}: the folder cannot be created ({}).", folder.string(), failed.message());
   }
 }
 

@@ -107,9 +107,8 @@ void require_known_command(const CLI::App& program, int count, char** arguments)
     }
   }
   const std::string hint = thawslide::config::did_you_mean(arguments[1], commands);
-  throw thawslide::UserError(
-      fmt::format("there is no command '{}'{} Commands: {}. Run with --help for more information.", arguments[1],
-                  hint.empty() ? "." : hint, thawslide::config::comma_list(commands)));
+  throw thawslide::UserError("there is no command '{}'{} Commands: {}. Run with --help for more information.",
+                             arguments[1], hint.empty() ? "." : hint, thawslide::config::comma_list(commands));
 }
 
 // Reports lost output. A closed pipe is not an error, because the reader has read enough. Returns the exit code, `code`
@@ -286,7 +285,7 @@ int run_program(int count, char** arguments) {
     if (error.get_exit_code() == 0) {
       return with_output_written(program.exit(error));  // --help
     }
-    throw thawslide::UserError(fmt::format("{}. Run with --help for more information.", error.what()));
+    throw thawslide::UserError("{}. Run with --help for more information.", error.what());
   }
   // A run continues without a terminal, because its results are files.
   return run->parsed() || resume->parsed() ? exit_code : with_output_written(exit_code);
@@ -333,8 +332,8 @@ int main(int count, char** arguments) {
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::bad_alloc&) {
     print_error(
-        "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
-        "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
+        "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make grid.cell "
+        "larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::exception& error) {
     // fmt reports a failed write of a command's output by this exception.

@@ -74,9 +74,9 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (reached[k]) {
       throw UserError(
-          fmt::format("--release: {}: the release reaches the outermost points of the DEM in the {} (needed: at "
-                      "least {:g} m, one cell, beyond the release). Use a DEM that covers the flow path too.",
-                      file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
+          "--release: {}: the release reaches the outermost points of the DEM in the {} (needed: at least {:g} m, one "
+          "cell, beyond the release). Use a DEM that covers the flow path too.",
+          file, sides[k], k < 2 ? ground.cell_x : ground.cell_y);
     }
   }
 }
@@ -108,10 +108,10 @@ void require_resolvable(const config::Proposal& proposal, const NewOptions& opti
   for (std::size_t a = 0; a < 3; ++a) {
     const double cells = (proposal.max[a] - proposal.min[a]) / proposal.cell;
     if (!(cells >= fewest && cells <= most)) {
-      throw UserError(fmt::format("{}, and the terrain about it would have {} of them along {}; allowed: {} to {}. {}",
-                                  reason_for_cell(proposal, options), count_text(std::max(0.0, std::round(cells))),
-                                  "xyz"[a], count_text(fewest), count_text(most),
-                                  options.cell > 0.0 ? "Give another --cell." : "Is the thickness in metres?"));
+      throw UserError("{}, and the terrain about it would have {} of them along {}; allowed: {} to {}. {}",
+                      reason_for_cell(proposal, options), count_text(std::max(0.0, std::round(cells))), "xyz"[a],
+                      count_text(fewest), count_text(most),
+                      options.cell > 0.0 ? "Give another --cell." : "Is the thickness in metres?");
     }
   }
 }
@@ -122,13 +122,13 @@ void require_memory(const config::Proposal& proposal, const NewOptions& options)
   const AvailableMemory available = available_memory();
   if (need.total() > available.bytes) {
     throw UserError(
-        fmt::format("{} and {} particles; they need about {} GB of memory, and {} GB {}. Set --cell {:g} "
-                    "or more, which is coarser{}.{}",
-                    reason_for_cell(proposal, options), rounded_text(proposal.particles),
-                    rounded_text(need.total() / 1e9), rounded_text(available.bytes / 1e9), available.bound,
-                    sim::smallest_cell<3>(need, proposal.cell, available.bytes),
-                    options.resolution.empty() ? "" : ", instead of --resolution",
-                    options.cell > 0.0 ? "" : " Is the thickness in metres?"));
+        "{} and {} particles; they need about {} GB of memory, and {} GB {}. Set --cell {:g} or more, which is "
+        "coarser{}.{}",
+        reason_for_cell(proposal, options), rounded_text(proposal.particles), rounded_text(need.total() / 1e9),
+        rounded_text(available.bytes / 1e9), available.bound,
+        sim::smallest_cell<3>(need, proposal.cell, available.bytes),
+        options.resolution.empty() ? "" : ", instead of --resolution",
+        options.cell > 0.0 ? "" : " Is the thickness in metres?");
   }
 }
 
@@ -138,11 +138,11 @@ void require_affordable(const config::Proposal& proposal, const NewOptions& opti
   if (options.cell > 0.0 || proposal.particles <= most) {
     return;
   }
-  throw UserError(fmt::format(
+  throw UserError(
       "{} and {} particles; allowed without --cell: {}. Is the thickness in metres? If it is, set --cell {:g} or more, "
       "which is coarser, or use a depth-averaged program for so thin a release.",
       reason_for_cell(proposal, options), rounded_text(proposal.particles), rounded_text(most),
-      rounded_up(proposal.cell * std::cbrt(proposal.particles / most), 2)));
+      rounded_up(proposal.cell * std::cbrt(proposal.particles / most), 2));
 }
 
 // Copies the release and the outlines of substrates, with the files that belong to them.
@@ -231,8 +231,8 @@ std::optional<run::RunCost> cost_of_run(const fs::path& folder) {
   } catch (const RunError&) {
     return {};  // the case is kept; `check` and `run` report the reason
   } catch (const UserError& error) {
-    throw UserError(fmt::format("no case was created, because it would not run: {}",
-                                without_places(error.what(), (folder / "case.toml").string())));
+    throw UserError("no case was created, because it would not run: {}",
+                    without_places(error.what(), (folder / "case.toml").string()));
   }
 }
 

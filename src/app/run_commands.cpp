@@ -85,8 +85,7 @@ config::Case case_of(const CaseOptions& options) {
         text.erase(found, std::string_view("--set ").size());
       }
     }
-    throw UserError(
-        fmt::format("--coarse, which sets cells of {:g} m: {}", config::trial_factor * parameters.grid.cell, text));
+    throw UserError("--coarse, which sets cells of {:g} m: {}", config::trial_factor * parameters.grid.cell, text);
   }
 }
 

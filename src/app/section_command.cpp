@@ -38,7 +38,7 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   const double spacing = 0.5 * std::min(ground.cell_x, ground.cell_y);
   const sim::PathLine line(site.path);
   if (line.empty()) {
-    throw UserError(fmt::format("{}: the line has no length. Draw one with two corners apart or more.", source));
+    throw UserError("{}: the line has no length. Draw one with two corners apart or more.", source);
   }
   Cut cut{{}, line.corners().front(), line.corners().back()};
   cut.profile.distance = sim::stations_along(line, 0.0, line.length(), spacing);
@@ -86,17 +86,17 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
       fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
                   cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", config::shown(site.crs_name))};
   if (!options.maps.release.empty()) {
-    comments.push_back(options.maps.cut ? fmt::format("The surface is that of the DEM; the terrain is lower by the "
-                                                      "vertical thickness of {}.",
-                                                      name_of(options.maps.release))
-                                        : fmt::format("The terrain is that of the DEM; the surface is higher by the "
-                                                      "vertical thickness of {}.",
-                                                      name_of(options.maps.release)));
+    comments.push_back(
+        options.maps.cut
+            ? fmt::format("The surface is that of the DEM; the terrain is lower by the vertical thickness of {}.",
+                          name_of(options.maps.release))
+            : fmt::format("The terrain is that of the DEM; the surface is higher by the vertical thickness of {}.",
+                          name_of(options.maps.release)));
   }
   if (taper > 0.0) {
     comments.push_back(
-        fmt::format("The edges of the cut are ramps {:g} m wide, half of it beyond the outline: vertical edges "
-                    "would trap the slide.",
+        fmt::format("The edges of the cut are ramps {:g} m wide, half of it beyond the outline: vertical edges would "
+                    "trap the slide.",
                     taper));
   }
   if (site.roughness->width > 0.0) {
@@ -112,11 +112,11 @@ void check_body(const SectionOptions& options, const config::ProfileTable& profi
   const double before = body.begin - proposal.min[0], after = proposal.max[0] - body.end;
   if (before < margin || after < margin) {
     const bool first = before < margin;
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: {}: the section {} {} m {} the release; needed: at least {} m, {} cells. Make the line longer there.",
         line_option, options.line, first ? "begins" : "ends",
         rounded_text(first ? body.begin : profile.distance.back() - body.end, 3), first ? "before" : "after",
-        rounded_text(rounded_up(margin + proposal.cell, 3), 3), config::margin_cells + 1));
+        rounded_text(rounded_up(margin + proposal.cell, 3), 3), config::margin_cells + 1);
   }
 }
 
@@ -154,9 +154,9 @@ int make_section(const SectionOptions& options) {
   const config::SurfaceBody body = config::body_on(cut.profile);
   if (!(body.area > 0.0)) {
     throw UserError(
-        fmt::format("{}: {}: the line does not cross the release of {}. Draw it through the release, or "
-                    "leave --release out for the profile alone.",
-                    line_option, options.line, options.maps.release));
+        "{}: {}: the line does not cross the release of {}. Draw it through the release, or leave --release out for "
+        "the profile alone.",
+        line_option, options.line, options.maps.release);
   }
   const config::Proposal proposal = config::propose_section(cut.profile, body);
   check_body(options, cut.profile, body, proposal);

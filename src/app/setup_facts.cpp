@@ -76,8 +76,8 @@ std::string text_of(const config::Roughness& ground) {
                                         ground.narrow_valley)
                                   : "";
   return fmt::format(
-      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {} m have an "
-      "rms slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {} m have an rms "
+      "slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
       ground.noise, ground.noise / ground.cell, ground.spacing, rounded_text(ground.bump_length, 2), ground.bump_slope,
       filter, 100.0 * ground.apparent_friction, valleys);
 }

@@ -22,8 +22,7 @@ class NamelessFile {
     const bool is_written = file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
                             std::fflush(file_.get()) == 0;
     if (!is_written) {
-      throw UserError(
-          fmt::format("the picture was not drawn: a temporary file cannot be written: {}.", std::strerror(errno)));
+      throw UserError("the picture was not drawn: a temporary file cannot be written: {}.", std::strerror(errno));
     }
   }
   // Makes the file this process's standard input, read from its beginning.
@@ -59,8 +58,8 @@ void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture)
   waitpid(child, &status, 0);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     const bool is_found = !WIFEXITED(status) || WEXITSTATUS(status) != 127;
-    throw UserError(fmt::format("the picture was not drawn: thawslide-report {}. {}",
-                                is_found ? "failed" : "is not on PATH", python_program_remedy));
+    throw UserError("the picture was not drawn: thawslide-report {}. {}", is_found ? "failed" : "is not on PATH",
+                    python_program_remedy);
   }
 }
 

@@ -91,8 +91,7 @@ int run_python_command(const std::string& name, const std::vector<std::string>& 
   }
   pointers.push_back(nullptr);
   execvp(program.c_str(), pointers.data());
-  throw UserError(
-      fmt::format("thawslide-{} cannot be started ({}). {}", name, std::strerror(errno), python_program_remedy));
+  throw UserError("thawslide-{} cannot be started ({}). {}", name, std::strerror(errno), python_program_remedy);
 }
 
 std::string version_text() {

@@ -109,9 +109,8 @@ RunStatus status_of(const fs::path& folder) {
     if (!at_work.process.empty()) {
       return status_at_start(folder, at_work);
     }
-    throw UserError(
-        fmt::format("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed.",
-                    folder.string()));
+    throw UserError("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed.",
+                    folder.string());
   }
   const bool is_at_work = at_work.is_known && !at_work.process.empty();
   const io::Provenance facts = io::read_provenance(folder);

@@ -85,9 +85,9 @@ void AtomicFile::publish(const fs::path& previous) {
 }
 
 void AtomicFile::fail(const std::string& reason) const {
-  throw WriteError(fmt::format(
+  throw WriteError(
       "cannot write {}: {}. Check that the folder exists and is writable, and that the disk has free space.",
-      file_.string(), reason));
+      file_.string(), reason);
 }
 
 void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes, const fs::path& previous) {

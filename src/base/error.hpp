@@ -9,6 +9,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace thawslide {
 
@@ -22,10 +23,21 @@ enum class ExitCode : int {
   device_failed = 6
 };
 
-// Error of the user. The message states what was found, what is allowed and the remedy. Exit code 2.
-class UserError : public std::runtime_error {
+// Exception with a text, or with a format of fmt and its values.
+class FormattedError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+#ifndef __CUDACC__
+  template <class... Values>
+  requires(sizeof...(Values) > 0) explicit FormattedError(fmt::format_string<Values...> form, Values&&... values)
+      : std::runtime_error(fmt::format(form, std::forward<Values>(values)...)) {}
+#endif
+};
+
+// Error of the user. The message states what was found, what is allowed and the remedy. Exit code 2.
+class UserError : public FormattedError {
+ public:
+  using FormattedError::FormattedError;
 };
 
 // File that cannot be written: full disk, missing permission. A run aborts with exit code 5 and can be resumed.
@@ -35,16 +47,16 @@ class WriteError : public UserError {
 };
 
 // GPU failure during a run, such as insufficient memory. The run aborts with exit code 6 and can be resumed.
-class DeviceError : public std::runtime_error {
+class DeviceError : public FormattedError {
  public:
-  using std::runtime_error::runtime_error;
+  using FormattedError::FormattedError;
 };
 
 // Run that failed (not finite, outside the domain, inverted). The message names particle, place, time and probable
 // cause. Exit code 3.
-class RunError : public std::runtime_error {
+class RunError : public FormattedError {
  public:
-  using std::runtime_error::runtime_error;
+  using FormattedError::FormattedError;
 };
 
 // Defect of the program: an invariant does not hold.

@@ -56,9 +56,9 @@ class StateNumbers {
   }
   [[noreturn]] void fail(const std::string& found) const {
     throw UserError(
-        fmt::format("the checkpoint's state of the {} is none that a run has: {}. Use another copy of the checkpoint, "
-                    "or run the case from its start.",
-                    name_, found));
+        "the checkpoint's state of the {} is none that a run has: {}. Use another copy of the checkpoint, or run the "
+        "case from its start.",
+        name_, found);
   }
 
  private:
@@ -72,9 +72,9 @@ inline const std::vector<double>& block_of(const NamedNumbers& blocks, const cha
   const auto found = blocks.find(name);
   if (found == blocks.end()) {
     throw UserError(
-        fmt::format("the checkpoint's state of the run is none that a run has: it has no block '{}' among {}. Use "
-                    "another copy of the checkpoint, or run the case from its start.",
-                    name, blocks.size()));
+        "the checkpoint's state of the run is none that a run has: it has no block '{}' among {}. Use another copy of "
+        "the checkpoint, or run the case from its start.",
+        name, blocks.size());
   }
   return found->second;
 }

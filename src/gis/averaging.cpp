@@ -80,10 +80,10 @@ std::vector<Point> corners_of(const Reprojection& reprojection, const Raster& ra
     x[k] = layout.x + (static_cast<double>(k) - 0.5) * layout.cell_x;
   }
   if (!reprojection.apply(x, y)) {
-    throw UserError(fmt::format(
+    throw UserError(
         "points of the ground near {}, {} cannot be transformed to the coordinate reference system {}. Reproject the "
         "raster to {}.",
-        coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs)));
+        coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs));
   }
   std::vector<Point> corners(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -162,9 +162,9 @@ Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, c
     }
     if (!reprojection.apply(x, y)) {
       throw UserError(
-          fmt::format("the release cannot be transformed to the coordinate reference system {} of the raster. "
-                      "Reproject the raster to the system of the DEM.",
-                      name));
+          "the release cannot be transformed to the coordinate reference system {} of the raster. Reproject the raster "
+          "to the system of the DEM.",
+          name);
     }
     for (std::size_t k = 0; k < ring.size(); ++k) {
       ring[k] = {x[k], y[k]};

@@ -18,10 +18,10 @@ void check_depths(const config::Case& parameters, const VectorLayer& layer, cons
   for (const Feature& feature : layer.features) {
     const double depth = feature.numbers.at(attribute);
     if (!(depth >= 0.0 && depth <= parameters.grid.cell)) {
-      throw UserError(fmt::format(
+      throw UserError(
           "{}: the attribute '{}' of {} is {:g} m; allowed: from 0 m, where there is no bed, to grid.cell, {:g} m. "
           "Correct it.",
-          layer.file, attribute, feature.title, depth, parameters.grid.cell));
+          layer.file, attribute, feature.title, depth, parameters.grid.cell);
     }
   }
 }
@@ -70,13 +70,13 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
         const double x = made.x_of(column), y = made.y_of(row);
         double& value = made.values[made.index(column, row)];
         if (domain.contains(x, y) && !(value >= 0.0 && value <= parameters.grid.cell)) {
-          throw UserError(fmt::format(
+          throw UserError(
               "{}: at {}, {}, in the domain, the depth of the bed is {}; allowed: from 0 m, where there is no bed, to "
               "grid.cell, {:g} m. {}",
               depth.source, coordinate_text(x), coordinate_text(y),
               std::isnan(value) ? "missing" : fmt::format("{:g} m", value), parameters.grid.cell,
               std::isnan(value) ? "Fill the raster with 0 over the whole domain, or make the domain smaller."
-                                : "Check the raster's unit."));
+                                : "Check the raster's unit.");
         }
       }
     }

@@ -30,9 +30,9 @@ void make_whole(const std::string& file, Raster& codes) {
         code = whole;
       } else if (!std::isnan(code)) {
         throw UserError(
-            fmt::format("{}: the raster holds {:g} at {}, {}; allowed: whole numbers, the codes of substrates. Check "
-                        "that it is the right file.",
-                        file, code, coordinate_text(codes.x_of(column)), coordinate_text(codes.y_of(row))));
+            "{}: the raster holds {:g} at {}, {}; allowed: whole numbers, the codes of substrates. Check that it is "
+            "the right file.",
+            file, code, coordinate_text(codes.x_of(column)), coordinate_text(codes.y_of(row)));
       }
     }
   }
@@ -50,9 +50,9 @@ Raster nearest_codes(const std::string& file, const Raster& codes, const Raster&
     }
     if (!reprojection.apply(x, y)) {
       throw UserError(
-          fmt::format("{}: points of the ground have no place in the raster's coordinate reference system, {}. "
-                      "Reproject the raster to {}.",
-                      file, name_of(codes.crs), name_of(layout.crs)));
+          "{}: points of the ground have no place in the raster's coordinate reference system, {}. Reproject the "
+          "raster to {}.",
+          file, name_of(codes.crs), name_of(layout.crs));
     }
     for (int column = 0; column < layout.columns; ++column) {
       const auto k = static_cast<std::size_t>(column);

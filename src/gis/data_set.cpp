@@ -51,9 +51,8 @@ ReadableFile::ReadableFile(const fs::path& file) : path_(file) {
     }
   } catch (const fs::filesystem_error& error) {
     throw UserError(
-        fmt::format("{}: it cannot be copied to read its latest edits ({}). Save them, and close the file "
-                    "in other programs.",
-                    file.string(), error.code().message()));
+        "{}: it cannot be copied to read its latest edits ({}). Save them, and close the file in other programs.",
+        file.string(), error.code().message());
   }
 }
 

@@ -46,10 +46,10 @@ void check_elevations(const std::string& file, const Raster& raster) {
       const double z = raster.at(column, row);
       const bool is_elevation = z >= deepest && z <= highest && z != -9999.0;
       if (!std::isnan(z) && !is_elevation) {
-        throw UserError(fmt::format(
-            "{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents "
-            "missing data, declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
-            file, coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z, shell_quote(file)));
+        throw UserError(
+            "{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents missing data, "
+            "declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
+            file, coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z, shell_quote(file));
       }
     }
   }
@@ -80,10 +80,10 @@ void check_domain(const config::Case& parameters, const std::string& file, const
   const std::string within = domain_within(parameters, span);
   const double resample = parameters.terrain.resample;
   fail_at(parameters, low ? "grid.min" : "grid.max",
-          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger DEM.",
-                      domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
-                      resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond,
-                      format_range(span), within.empty() ? "grid.min and grid.max so" : within));
+          "the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger DEM.",
+          domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
+          resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond, format_range(span),
+          within.empty() ? "grid.min and grid.max so" : within);
 }
 
 // Margin around the domain: nodes of the surrounding grid cells read the ground, and gradients there need neighbours.
@@ -99,9 +99,9 @@ void check_distance(const config::Case& parameters, const RasterFile& file) {
   const double distance = parameters.terrain.resample;
   if (distance > 0.0 && length / distance > config::most_raster_points) {
     fail_at(parameters, "terrain.resample",
-            fmt::format("points {:g} m apart along the {:.6g} m of {} would be {:.2g}; allowed: {:g}. Give a larger "
-                        "distance.",
-                        distance, length, file.file(), length / distance, config::most_raster_points));
+
+            "points {:g} m apart along the {:.6g} m of {} would be {:.2g}; allowed: {:g}. Give a larger distance.",
+            distance, length, file.file(), length / distance, config::most_raster_points);
   }
 }
 
@@ -179,9 +179,9 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
   if (layout.columns < 2 || layout.rows < 2) {
     fail_at(parameters, terrain.resample > 0.0 ? "terrain.resample" : "terrain.file",
-            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Use a larger DEM, or "
-                        "a smaller distance.",
-                        file.file(), layout.columns, layout.rows, layout.cell_x));
+
+            "{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Use a larger DEM, or a smaller distance.",
+            file.file(), layout.columns, layout.rows, layout.cell_x);
   }
   Dem dem;
   dem.span = span_of_points(layout);
@@ -211,9 +211,9 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
     warnings.push_back(fmt::format(
         "note: {} was smoothed with a standard deviation of {:g} m{}", name, width,
         terrain.smooth.is_auto
-            ? fmt::format(", as it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g} (terrain.smooth = "
-                          "\"auto\")",
-                          dem.roughness.noise, dem.roughness.bump_slope)
+            ? fmt::format(
+                  ", as it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g} (terrain.smooth = \"auto\")",
+                  dem.roughness.noise, dem.roughness.bump_slope)
             : ""));
   }
   dem.raster.crs = dem.before_smoothing.crs = system;

@@ -12,6 +12,13 @@ namespace thawslide::gis {
 
 [[noreturn]] void fail_at(const config::Case& parameters, const std::string& key, const std::string& message);
 
+// The same with a format of fmt and its values.
+template <class... Values>
+requires(sizeof...(Values) > 0) [[noreturn]] void fail_at(const config::Case& parameters, const std::string& key,
+                                                          fmt::format_string<Values...> form, Values&&... values) {
+  fail_at(parameters, key, fmt::format(form, std::forward<Values>(values)...));
+}
+
 // Adds the location of the key that named a file to errors of `work`.
 template <class Work>
 auto with_error_location(const config::Case& parameters, const std::string& key, const Work& work) {

@@ -35,8 +35,7 @@ std::vector<std::string> probes_in_holes(const config::Site& site) {
     });
     if (!is_known) {
       warnings.push_back(fmt::format(
-          "probe.{}: the DEM has no data there, and the probe reports zeros. Move it to where the terrain is "
-          "known.",
+          "probe.{}: the DEM has no data there, and the probe reports zeros. Move it to where the terrain is known.",
           name));
     }
   }
@@ -71,8 +70,8 @@ std::string holes_warning(const config::Case& parameters, const config::Site& si
   }
   const std::string from = site.releases.empty() ? "" : fmt::format(", about {:.0f} m from the release", nearest);
   return fmt::format(
-      "{} of {} points of the DEM within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide "
-      "that gets there {}",
+      "{} of {} points of the DEM within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide that gets "
+      "there {}",
       unknown, points, nearest_x, nearest_y, from,
       parameters.grid.leaving == config::Policy::remove ? "is removed and counted" : "ends the run");
 }

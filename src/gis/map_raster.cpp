@@ -18,10 +18,9 @@ Raster read_map(const config::Case& parameters, const MapRequest& request, std::
     add_warning(file.conversion().warning, warnings);
     const bool same_system = Reprojection(system.wkt, request.crs).changes_nothing();
     if (same_system && request.area && !request.area->touches(span_of_points(file.layout()))) {
-      throw UserError(fmt::format(
-          "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference "
-          "system.",
-          request.file, format_range(span_of_points(file.layout())), request.reason, format_range(*request.area)));
+      throw UserError(
+          "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference system.",
+          request.file, format_range(span_of_points(file.layout())), request.reason, format_range(*request.area));
     }
     Raster raster = file.read(same_system ? request.area : std::nullopt);
     raster.crs = system.wkt;

@@ -26,10 +26,10 @@ Polygons part_in_domain(const config::Case& parameters, const PolygonRequest& re
   const Rectangle domain = domain_of(parameters);
   Polygons inside = intersection_of(polygons, {box_polygon(domain)});
   if (!(area_of(inside) > 0.0)) {
-    fail_at(parameters, request.table + request.key,
-            fmt::format("{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and "
-                        "reference system.",
-                        request.file, format_range(extent_of(polygons)), format_range(domain)));
+    fail_at(
+        parameters, request.table + request.key,
+        "{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and reference system.",
+        request.file, format_range(extent_of(polygons)), format_range(domain));
   }
   return inside;
 }

@@ -27,7 +27,7 @@ void check_polygons(const VectorLayer& layer) {
       const GdalMessages messages;
       const OGRPolygon geometry = to_geometry(polygon);
       if (!has_area(geometry)) {
-        throw UserError(fmt::format("{}: {} has no area. Delete it, or draw its outline.", layer.file, feature.title));
+        throw UserError("{}: {} has no area. Delete it, or draw its outline.", layer.file, feature.title);
       }
       if (geometry.IsValid()) {
         continue;
@@ -35,13 +35,13 @@ void check_polygons(const VectorLayer& layer) {
       const std::string crossing = messages.after("Self-intersection at or near point ");
       if (!crossing.empty()) {
         throw UserError(
-            fmt::format("{}: {} crosses itself at or near {}. Correct its outline there (QGIS: Vector > "
-                        "Geometry Tools > Check Validity).",
-                        layer.file, feature.title, crossing));
+            "{}: {} crosses itself at or near {}. Correct its outline there (QGIS: Vector > Geometry Tools > Check "
+            "Validity).",
+            layer.file, feature.title, crossing);
       }
-      throw UserError(fmt::format(
+      throw UserError(
           "{}: {} is not a valid polygon{}. Correct its outline (QGIS: Vector > Geometry Tools > Check Validity).",
-          layer.file, feature.title, messages.remark()));
+          layer.file, feature.title, messages.remark());
     }
   }
 }

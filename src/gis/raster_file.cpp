@@ -32,21 +32,21 @@ namespace {
 [[noreturn]] void fail_open(const std::string& file, const GdalMessages& messages) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
-    throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
+    throw UserError("{}: there is no such file. Correct the path.", file);
   }
   if (const std::string cause = cause_of_unreadable_raster(file); !cause.empty()) {
-    throw UserError(fmt::format("{}: {}", file, cause));
+    throw UserError("{}: {}", file, cause);
   }
   if (GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, vector_formats(), nullptr) != nullptr) {
     throw UserError(
-        fmt::format("{}: the file has polygons, lines or points; needed: a raster, as a GeoTIFF or an ESRI ASCII grid. "
-                    "Is it swapped with another file? Correct the path.",
-                    file));
+        "{}: the file has polygons, lines or points; needed: a raster, as a GeoTIFF or an ESRI ASCII grid. Is it "
+        "swapped with another file? Correct the path.",
+        file);
   }
   throw UserError(
-      fmt::format("{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is "
-                  "complete and readable.",
-                  file, messages.remark()));
+      "{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is complete "
+      "and readable.",
+      file, messages.remark());
 }
 
 GDALDatasetUniquePtr open_raster(const std::string& file) {
@@ -76,9 +76,9 @@ void require_whole(const std::string& file, GDALDataset& dataset) {
   const double least = per_point * points - 1.0;
   if (static_cast<double>(found.st_size) < least) {
     throw UserError(
-        fmt::format("{}: the file is too short for {} x {} values (found {} bytes; needed {:.0f} or more). The file "
-                    "seems to be damaged or truncated: copy it again.",
-                    file, dataset.GetRasterXSize(), dataset.GetRasterYSize(), found.st_size, least));
+        "{}: the file is too short for {} x {} values (found {} bytes; needed {:.0f} or more). The file seems to be "
+        "damaged or truncated: copy it again.",
+        file, dataset.GetRasterXSize(), dataset.GetRasterYSize(), found.st_size, least);
   }
 }
 
@@ -87,16 +87,16 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   double transform[6];
   if (dataset.GetGeoTransform(transform) != CE_None) {
     throw UserError(
-        fmt::format("{}: the raster is not georeferenced: its corner and the size of its cells are unknown. Export it "
-                    "again with georeferencing (GeoTIFF tags, or a world file next to it).",
-                    file));
+        "{}: the raster is not georeferenced: its corner and the size of its cells are unknown. Export it again with "
+        "georeferencing (GeoTIFF tags, or a world file next to it).",
+        file);
   }
   const double along = std::abs(transform[1]) + std::abs(transform[5]);
   if (std::abs(transform[2]) + std::abs(transform[4]) > 1e-12 * along || transform[1] <= 0.0 || transform[5] == 0.0) {
     throw UserError(
-        fmt::format("{}: the raster is rotated or mirrored (geotransform {:g}); allowed: columns from west to east, "
-                    "rows from north to south or back. Straighten it: gdalwarp -r bilinear {} straight.tif",
-                    file, fmt::join(transform, ", "), shell_quote(file)));
+        "{}: the raster is rotated or mirrored (geotransform {:g}); allowed: columns from west to east, rows from "
+        "north to south or back. Straighten it: gdalwarp -r bilinear {} straight.tif",
+        file, fmt::join(transform, ", "), shell_quote(file));
   }
   Raster layout;
   layout.columns = dataset.GetRasterXSize();
@@ -110,9 +110,9 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   const double point[] = {layout.x, layout.y, layout.x_end(), layout.y_end(), layout.cell_x, layout.cell_y};
   if (!std::all_of(std::begin(point), std::end(point), [](double number) { return std::isfinite(number); })) {
     throw UserError(
-        fmt::format("{}: the raster has no valid position (geotransform {:g}): corners and sizes of cells must be "
-                    "finite numbers. Export it again with georeferencing.",
-                    file, fmt::join(transform, ", ")));
+        "{}: the raster has no valid position (geotransform {:g}): corners and sizes of cells must be finite numbers. "
+        "Export it again with georeferencing.",
+        file, fmt::join(transform, ", "));
   }
   return layout;
 }
@@ -142,9 +142,8 @@ GDALRasterBand* band_of_values(const std::string& file, GDALDataset& dataset, GD
     }
   }
   if (of_values.size() != 1) {
-    throw UserError(
-        fmt::format("{}: the raster has {} bands; allowed: one. Take one out: gdal_translate -b 1 {} one-band.tif",
-                    file, dataset.GetRasterCount(), file));
+    throw UserError("{}: the raster has {} bands; allowed: one. Take one out: gdal_translate -b 1 {} one-band.tif",
+                    file, dataset.GetRasterCount(), file);
   }
   return of_values.front();
 }
@@ -158,8 +157,8 @@ void require_plain_mask(const std::string& file) {
   }
   GDALDriverH driver = GDALIdentifyDriver(mask.c_str(), nullptr);
   if (driver == nullptr || std::string(GDALGetDescription(driver)) != "GTiff") {
-    throw UserError(fmt::format(
-        "{}: the mask of {} is not a GeoTIFF. Remove it, or write the raster with its mask again.", mask, file));
+    throw UserError("{}: the mask of {} is not a GeoTIFF. Remove it, or write the raster with its mask again.", mask,
+                    file);
   }
 }
 
@@ -175,17 +174,17 @@ void require_readable(const std::string& file, double columns, double rows) {
   const double points = columns * rows, bytes = points * sizeof(double) * copies;
   if (points > config::most_raster_points) {
     throw UserError(
-        fmt::format("{}: {} x {} points of it are needed; allowed: {} points. Crop it (gdal_translate -projwin), "
-                    "resample it to a larger spacing (gdalwarp -tr), or make the domain smaller.",
-                    file, count_text(columns), count_text(rows), count_text(config::most_raster_points)));
+        "{}: {} x {} points of it are needed; allowed: {} points. Crop it (gdal_translate -projwin), resample it to a "
+        "larger spacing (gdalwarp -tr), or make the domain smaller.",
+        file, count_text(columns), count_text(rows), count_text(config::most_raster_points));
   }
   const AvailableMemory available = available_memory();
   if (bytes > available.bytes) {
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: {} x {} points of it are needed; they take {} GB of memory, and {} GB {}. Crop it (gdal_translate "
         "-projwin), resample it to a larger spacing (gdalwarp -tr), or make the domain smaller.",
         file, count_text(columns), count_text(rows), rounded_text(bytes / 1e9), rounded_text(available.bytes / 1e9),
-        available.bound));
+        available.bound);
   }
 }
 
@@ -200,17 +199,17 @@ RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std
   GDALRasterBand& band = *handle_->band;
   const GDALDataType type = band.GetRasterDataType();
   if (GDALDataTypeIsComplex(type) != 0) {
-    throw UserError(fmt::format("{}: the values are of the type {}; allowed: real numbers or integers.", file,
-                                GDALGetDataTypeName(type)));
+    throw UserError("{}: the values are of the type {}; allowed: real numbers or integers.", file,
+                    GDALGetDataTypeName(type));
   }
   handle_->is_single = type == GDT_Float32;
   handle_->scale = band.GetScale();
   handle_->offset = band.GetOffset();
   if (!std::isfinite(handle_->scale) || handle_->scale == 0.0 || !std::isfinite(handle_->offset)) {
-    throw UserError(fmt::format(
-        "{}: the values are stored with a scale of {:g} and an offset of {:g}; allowed: finite numbers, and "
-        "a scale other than 0. Correct them: gdal_edit.py -scale 1 -offset 0 {}",
-        file, handle_->scale, handle_->offset, shell_quote(file)));
+    throw UserError(
+        "{}: the values are stored with a scale of {:g} and an offset of {:g}; allowed: finite numbers, and a scale "
+        "other than 0. Correct them: gdal_edit.py -scale 1 -offset 0 {}",
+        file, handle_->scale, handle_->offset, shell_quote(file));
   }
   const HeightUnit heights = height_unit_of(dataset.GetSpatialRef());
   conversion_ = conversion_from({file, band.GetUnitType(), heights.name, heights.metres}, quantity);
@@ -236,8 +235,8 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   Raster raster = read_points(window ? points_in(layout_, *window) : PointWindow{0, 0, layout_.columns, layout_.rows});
   const bool any = std::any_of(raster.values.begin(), raster.values.end(), [](double v) { return !std::isnan(v); });
   if (!any) {
-    throw UserError(fmt::format("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
-                                window ? " in the area asked for" : ""));
+    throw UserError("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
+                    window ? " in the area asked for" : "");
   }
   return raster;
 }
@@ -257,11 +256,10 @@ Raster RasterFile::read_points(const PointWindow& part) const {
                               part.rows, GDT_Float64, sizeof(double), north_up_ ? -line_bytes : line_bytes, nullptr);
   if (result != CE_None || messages.any_error()) {
     if (const std::string cause = cause_of_unreadable_raster(file_); !cause.empty()) {
-      throw UserError(fmt::format("{}: {}", file_, cause));
+      throw UserError("{}: {}", file_, cause);
     }
-    throw UserError(
-        fmt::format("{}: the values cannot be read{}. The file seems to be damaged or truncated: copy it again.", file_,
-                    messages.remark()));
+    throw UserError("{}: the values cannot be read{}. The file seems to be damaged or truncated: copy it again.", file_,
+                    messages.remark());
   }
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   // A sum with an offset that is 0 exactly may differ from 0 after rounding.
@@ -288,9 +286,8 @@ void RasterFile::remove_masked(const PointWindow& part, Raster& raster) const {
       const CPLErr result = band->RasterIO(GF_Read, part.first_column, line, part.columns, 1, mask.data(), part.columns,
                                            1, GDT_Float64, 0, 0, nullptr);
       if (result != CE_None || messages.any_error()) {
-        throw UserError(
-            fmt::format("{}: the mask cannot be read{}. The file seems to be damaged or truncated: copy it again.",
-                        file_, messages.remark()));
+        throw UserError("{}: the mask cannot be read{}. The file seems to be damaged or truncated: copy it again.",
+                        file_, messages.remark());
       }
       for (int column = 0; column < part.columns; ++column) {
         double& value = raster.values[raster.index(column, row)];

@@ -105,24 +105,23 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
       fmt::format("{}: the file names no coordinate reference system ({})", raster.file, format_range(raster.extent));
   if (can_be_degrees(raster.extent)) {
     throw UserError(
-        fmt::format("{}. If these are degrees, reproject to metres: {}. If they are metres, set terrain.crs to the "
-                    "system they are in, such as terrain.crs = \"EPSG:31287\".",
-                    found, warp_of_degrees(raster, "-s_srs EPSG:4326 ")));
+        "{}. If these are degrees, reproject to metres: {}. If they are metres, set terrain.crs to the system they are "
+        "in, such as terrain.crs = \"EPSG:31287\".",
+        found, warp_of_degrees(raster, "-s_srs EPSG:4326 "));
   }
-  throw UserError(fmt::format(
-      "{}. Set terrain.crs to the one that the data provider states, such as terrain.crs = \"EPSG:31287\".", found));
+  throw UserError("{}. Set terrain.crs to the one that the data provider states, such as terrain.crs = \"EPSG:31287\".",
+                  found);
 }
 
 [[noreturn]] void fail_with_degrees(const Located& raster, const std::string& wkt) {
   if (!can_be_degrees(raster.extent)) {
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: the tag specifies degrees ({}), but the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
         "system of the coordinates, which the data provider states.",
-        raster.file, name_of(wkt), format_range(raster.extent)));
+        raster.file, name_of(wkt), format_range(raster.extent));
   }
-  throw UserError(
-      fmt::format("{}: the coordinates are degrees ({}; {}); allowed: a map projection in metres. Reproject: {}",
-                  raster.file, name_of(wkt), format_range(raster.extent), warp_of_degrees(raster, "")));
+  throw UserError("{}: the coordinates are degrees ({}; {}); allowed: a map projection in metres. Reproject: {}",
+                  raster.file, name_of(wkt), format_range(raster.extent), warp_of_degrees(raster, ""));
 }
 
 // Longitude and latitude of the raster's centre; NaN if undefined.
@@ -139,8 +138,8 @@ std::array<double, 2> middle_in_degrees(const Located& raster, const std::string
 [[noreturn]] void fail_with_unit(const Located& raster, const std::string& wkt, const std::string& unit,
                                  double metres_per_unit, bool from_key) {
   if (from_key) {
-    throw UserError(fmt::format("{} is in the unit '{}'; allowed: a map projection in metres, such as \"EPSG:31287\".",
-                                name_of(wkt), unit));
+    throw UserError("{} is in the unit '{}'; allowed: a map projection in metres, such as \"EPSG:31287\".",
+                    name_of(wkt), unit);
   }
   std::string remedy = "Reproject it to one with gdalwarp";
   const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
@@ -148,9 +147,9 @@ std::array<double, 2> middle_in_degrees(const Located& raster, const std::string
     remedy = "Reproject: " + warp_command(raster, "", longitude, latitude, metres_per_unit);
   }
   throw UserError(
-      fmt::format("{}: the coordinates are in the unit '{}' ({}); allowed: a map projection in metres, and elevations "
-                  "in metres. {}",
-                  raster.file, unit, name_of(wkt), remedy));
+      "{}: the coordinates are in the unit '{}' ({}); allowed: a map projection in metres, and elevations in metres. "
+      "{}",
+      raster.file, unit, name_of(wkt), remedy);
 }
 
 // "1.46 times those on the ground at its corner 1002000, 5900000"
@@ -168,10 +167,9 @@ void require_metric_heights(const OGRSpatialReference& reference, const std::str
   const HeightUnit heights = height_unit_of(&reference);
   if (std::abs(heights.metres - 1.0) > 1e-9) {
     throw UserError(
-        fmt::format("{} has heights in the unit '{}'; allowed: a map projection in metres, without heights or with "
-                    "heights in metres. Name its horizontal part alone, and state the unit of the elevations in the "
-                    "file: gdal_edit.py -units",
-                    name, heights.name));
+        "{} has heights in the unit '{}'; allowed: a map projection in metres, without heights or with heights in "
+        "metres. Name its horizontal part alone, and state the unit of the elevations in the file: gdal_edit.py -units",
+        name, heights.name);
   }
 }
 
@@ -189,9 +187,9 @@ void require_projection_database() {
   OGRSpatialReference known;
   if (known.importFromEPSG(4326) != OGRERR_NONE) {
     throw UserError(
-        fmt::format("PROJ's database of coordinate reference systems, proj.db, cannot be used{}. Install it (Debian: "
-                    "apt-get install proj-data), or let PROJ_LIB name the folder that holds it.",
-                    messages.remark()));
+        "PROJ's database of coordinate reference systems, proj.db, cannot be used{}. Install it (Debian: apt-get "
+        "install proj-data), or let PROJ_LIB name the folder that holds it.",
+        messages.remark());
   }
 }
 
@@ -206,10 +204,10 @@ std::string reference_system_named(const std::string& text) {
     const bool lacks_registry =
         is_sound_number(with_registry) && reference.SetFromUserInput(with_registry.c_str()) == OGRERR_NONE;
     throw UserError(
-        fmt::format("'{}' is not a known coordinate reference system{} a number of the EPSG registry such as "
-                    "\"EPSG:31287\" (epsg.io finds it), or a WKT.",
-                    config::shown(text),
-                    lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:"));
+        "'{}' is not a known coordinate reference system{} a number of the EPSG registry such as \"EPSG:31287\" "
+        "(epsg.io finds it), or a WKT.",
+        config::shown(text),
+        lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:");
   }
   return wkt_from_reference(&reference);
 }
@@ -250,18 +248,15 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   OGRSpatialReference reference = reference_from_wkt(wkt);
   if (reference.IsGeographic() != 0) {
     if (from_key) {
-      throw UserError(
-          fmt::format("{} is in degrees; allowed: a map projection in metres, such as "
-                      "\"EPSG:31287\".",
-                      name_of(wkt)));
+      throw UserError("{} is in degrees; allowed: a map projection in metres, such as \"EPSG:31287\".", name_of(wkt));
     }
     fail_with_degrees(raster, wkt);
   }
   if (reference.IsProjected() == 0) {
     throw UserError(
-        fmt::format("{}: the coordinate reference system '{}' is not a map projection; allowed: a projection in "
-                    "metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".",
-                    raster.file, name_of(wkt)));
+        "{}: the coordinate reference system '{}' is not a map projection; allowed: a projection in metres. Set "
+        "terrain.crs, such as terrain.crs = \"EPSG:31287\".",
+        raster.file, name_of(wkt));
   }
   const char* unit = nullptr;
   const double metres_per_unit = reference.GetLinearUnits(&unit);
@@ -282,11 +277,11 @@ std::string distortion_note(const Located& raster, const std::string& wkt, bool 
   if (scales.error() > most) {
     const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
     const std::string source = from_key ? fmt::format("-s_srs {} ", shell_quote(name_of(wkt))) : "";
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: lengths in the map projection {} are {}; allowed: a projection that preserves lengths to within {:g} %. "
         "Reproject: {}",
         raster.file, name_of(wkt), format_scales(scales), 100.0 * most,
-        warp_command(raster, source, longitude, latitude, 1.0 / std::sqrt(scales.smallest * scales.largest))));
+        warp_command(raster, source, longitude, latitude, 1.0 / std::sqrt(scales.smallest * scales.largest)));
   }
   return scales.error() <= noticeable
              ? ""
@@ -310,11 +305,11 @@ std::string height_system_of(const std::string& wkt) {
 
 void require_same_heights(const std::string& file, const std::string& found, const std::string& dem) {
   if (!found.empty() && !dem.empty() && lower_case(found) != lower_case(dem)) {
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: the elevations refer to '{}', those of the DEM to '{}'; allowed: one vertical reference system. Transform "
         "one of the files (gdalwarp -s_srs ... -t_srs ...), or state the same system in both, if they have the same: "
         "gdal_edit.py -a_srs EPSG:... {}",
-        file, found, dem, shell_quote(file)));
+        file, found, dem, shell_quote(file));
   }
 }
 

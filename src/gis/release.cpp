@@ -46,20 +46,19 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
   if (!(volume > 0.0)) {
     fail_at(parameters, key_of(name, "thickness"),
-            fmt::format("{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
-                        area_file(parameters, name)));
+            "{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
+            area_file(parameters, name));
   }
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
     fail_at(parameters, area_key(parameters, name),
-            fmt::format("{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. {} "
-                        "If the volume is right, confirm it by a larger body.{}.largest_volume.",
-                        area_file(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
-                        rounded_text(largest, 3),
-                        parameters.bodies.at(name).release.empty() && most > thickest
-                            ? swapped_dem
-                            : "Is the thickness in the wrong unit? Metres are needed.",
-                        name));
+            "{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. {} If the volume "
+            "is right, confirm it by a larger body.{}.largest_volume.",
+            area_file(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name, rounded_text(largest, 3),
+            parameters.bodies.at(name).release.empty() && most > thickest
+                ? swapped_dem
+                : "Is the thickness in the wrong unit? Metres are needed.",
+            name);
   }
 }
 
@@ -88,14 +87,14 @@ double release_time_of(const config::Case& parameters, const std::string& name, 
   const double first = parts.front().value, last = parts.back().value;
   if (parts.size() > 1) {
     fail_at(parameters, key,
-            fmt::format("{}: the attribute '{}' of the polygons of body.{} is from {:g} to {:g}; allowed: one value. "
-                        "Make a body of each stage, and select its polygons by body.NAME.polygons.",
-                        area_file(parameters, name), attribute, name, first, last));
+            "{}: the attribute '{}' of the polygons of body.{} is from {:g} to {:g}; allowed: one value. Make a body "
+            "of each stage, and select its polygons by body.NAME.polygons.",
+            area_file(parameters, name), attribute, name, first, last);
   }
   if (!(first >= 0.0 && first < parameters.time.end)) {
     fail_at(parameters, key,
-            fmt::format("{}: the attribute '{}' is {:g} s; allowed: from 0 to less than time.end, {:g} s. Correct it.",
-                        area_file(parameters, name), attribute, first, parameters.time.end));
+            "{}: the attribute '{}' is {:g} s; allowed: from 0 to less than time.end, {:g} s. Correct it.",
+            area_file(parameters, name), attribute, first, parameters.time.end);
   }
   return first;
 }

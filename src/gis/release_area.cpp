@@ -44,15 +44,14 @@ void check_area(const config::Case& parameters, const std::string& body, const R
     const std::string beyond = describe_overhang(extent, outer);
     if (!beyond.empty()) {
       fail_at(parameters, area_key(parameters, body),
-              fmt::format("{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
-                          area_file(parameters, body), extent.touches(outer) ? "partly " : "", what, beyond,
-                          format_range(extent), format_range(outer), remedy));
+              "{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}", area_file(parameters, body),
+              extent.touches(outer) ? "partly " : "", what, beyond, format_range(extent), format_range(outer), remedy);
     }
   };
-  check("the DEM", ground.span,
-        fmt::format("Check that both have the same location and reference system (the DEM has {}), or use a larger "
-                    "DEM.",
-                    name_of(ground.raster.crs)));
+  check(
+      "the DEM", ground.span,
+      fmt::format("Check that both have the same location and reference system (the DEM has {}), or use a larger DEM.",
+                  name_of(ground.raster.crs)));
   check("the domain", domain_of(parameters), is_dem ? swapped_dem : "Widen grid.min and grid.max.");
 }
 
@@ -74,9 +73,9 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
     const std::string beyond = describe_overhang(reached, outer);
     if (!beyond.empty()) {
       fail_at(parameters, key_of(body, "taper"),
-              fmt::format("a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; "
-                          "allowed: up to {:.9g} m. Set a narrower one, or {}.",
-                          taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy));
+              "a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; allowed: up to "
+              "{:.9g} m. Set a narrower one, or {}.",
+              taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy);
     }
   };
   check("the DEM", ground.span, "take a larger DEM");
@@ -89,12 +88,12 @@ void check_size(const config::Case& parameters, const std::string& body, double 
   const double cell = ground.cell_x * ground.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
     const double finer = 0.25 * std::sqrt(size);
-    fail_at(parameters, key_of(body, "release"),
-            fmt::format("{}: the release is smaller than a cell of the DEM ({} m2; {} m2), over which it would be "
-                        "distributed and become too thin. Draw it larger, or resample the DEM "
-                        "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                        parameters.bodies.at(body).release, rounded_text(size, 3), rounded_text(cell, 3), finer, finer,
-                        shell_quote(parameters.terrain.file)));
+    fail_at(
+        parameters, key_of(body, "release"),
+        "{}: the release is smaller than a cell of the DEM ({} m2; {} m2), over which it would be distributed and "
+        "become too thin. Draw it larger, or resample the DEM (gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
+        parameters.bodies.at(body).release, rounded_text(size, 3), rounded_text(cell, 3), finer, finer,
+        shell_quote(parameters.terrain.file));
   }
 }
 
@@ -122,18 +121,18 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
   }
   if (x.empty()) {
     if (body.thickness.from == config::MapValue::From::raster) {
-      throw UserError(fmt::format("{}: the thickness is not above 0 at any point: there is no release.", file));
+      throw UserError("{}: the thickness is not above 0 at any point: there is no release.", file);
     }
     throw UserError(
-        fmt::format("{}: the surface before the slide is at most {:g} m above the DEM: there is no release. "
-                    "Are the two files swapped?",
-                    file, body.surface_tolerance));
+        "{}: the surface before the slide is at most {:g} m above the DEM: there is no release. Are the two files "
+        "swapped?",
+        file, body.surface_tolerance);
   }
   if (!Reprojection(source.crs, crs).apply(x, y)) {
     throw UserError(
-        fmt::format("{}: points of the raster cannot be transformed to the coordinate reference system of "
-                    "the DEM, {}. Check the system of the file.",
-                    file, name_of(crs)));
+        "{}: points of the raster cannot be transformed to the coordinate reference system of the DEM, {}. Check the "
+        "system of the file.",
+        file, name_of(crs));
   }
   Rectangle extent{x[0], y[0], x[0], y[0]};
   for (std::size_t k = 0; k < x.size(); ++k) {

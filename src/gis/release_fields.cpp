@@ -62,11 +62,10 @@ void check_values(const Raster& field, const Raster& fraction, const MappedField
       const double value = field.at(column, row);
       const bool is_allowed = (value > what.low && value <= what.high) || (std::isnan(value) && !missing);
       if (fraction.at(column, row) > 0.0 && !is_allowed) {
-        throw UserError(
-            fmt::format("{}: at {}, {}, within the release, the {} is {}; allowed: above {:g}{} and up to {:g}{}.",
+        throw UserError("{}: at {}, {}, within the release, the {} is {}; allowed: above {:g}{} and up to {:g}{}.",
                         source, coordinate_text(field.x_of(column)), coordinate_text(field.y_of(row)), what.key,
                         std::isnan(value) ? "missing" : fmt::format("{:g}{}", value, what.unit), what.low, what.unit,
-                        what.high, what.unit));
+                        what.high, what.unit);
       }
     }
   }

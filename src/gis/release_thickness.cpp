@@ -42,8 +42,8 @@ class ThicknessMaker {
     check_ground(thickness, Spread::by_taper);
     if (body_.taper > 0.0 && taper_reach(body_.taper, ground_.cell_x) + taper_reach(body_.taper, ground_.cell_y) == 0) {
       warnings_.push_back(
-          fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x "
-                      "{:g} m: it changes nothing",
+          fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x {:g} m: it "
+                      "changes nothing",
                       name_, body_.taper, ground_.cell_x, ground_.cell_y));
     }
     return thickness;
@@ -88,14 +88,14 @@ class ThicknessMaker {
       }
     });
     if (without > 0 && spread == Spread::by_taper) {
-      fail("taper", fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, "
-                                "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
+      fail("taper", fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, such "
+                                "as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
                                 body_.taper, area_file(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
-           fmt::format("{}: the release lies over nodata of the DEM at {} of its points, such as {}. "
-                       "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
+           fmt::format("{}: the release lies over nodata of the DEM at {} of its points, such as {}. Fill the holes "
+                       "(gdal_fillnodata.py {} filled.tif), or move the release.",
                        area_file(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
   }
@@ -138,10 +138,10 @@ class ThicknessMaker {
 
   Raster of_number() const {
     if (!(body_.thickness.number > 0.0)) {
-      fail("thickness", fmt::format("the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or "
-                                    "to {{ attribute = \"thickness\" }} of the polygons, {{ raster = FILE }} or "
-                                    "{{ surface = FILE }}.",
-                                    body_.thickness.number));
+      fail("thickness",
+           fmt::format("the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or to {{ "
+                       "attribute = \"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
+                       body_.thickness.number));
     }
     return times_fraction([&](std::size_t) { return body_.thickness.number; });
   }

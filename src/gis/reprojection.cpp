@@ -35,9 +35,9 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
   if (transformation_->transformation == nullptr) {
     require_projection_database();
     throw UserError(
-        fmt::format("no transformation is available from the coordinate reference system {} to {}{}. "
-                    "Reproject the file to the latter.",
-                    name_of(from_wkt), name_of(to_wkt), messages.remark()));
+        "no transformation is available from the coordinate reference system {} to {}{}. Reproject the file to the "
+        "latter.",
+        name_of(from_wkt), name_of(to_wkt), messages.remark());
   }
 }
 

@@ -343,8 +343,8 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
                                  ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."
                                  : "Set terrain.smooth = \"auto\".";
   return fmt::format(
-      "terrain.smooth: noise and bumps shorter than {} m add about {:.2g} % to the friction, with a filter of "
-      "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
+      "terrain.smooth: noise and bumps shorter than {} m add about {:.2g} % to the friction, with a filter of {:g} m "
+      "(rms slope {:.2g}; at most {:g} is intended). {}",
       rounded_text(found.bump_length, 2), 100.0 * found.apparent_friction, found.width, found.remaining_slope,
       largest_slope, remedy);
 }

@@ -40,10 +40,10 @@ Raster sampled(const Raster& raster, const Raster& layout, Missing missing) {
       y[static_cast<std::size_t>(column)] = layout.y_of(row);
     }
     if (!reprojection.apply(x, y)) {
-      throw UserError(fmt::format(
+      throw UserError(
           "points of the ground near {}, {} cannot be transformed to the coordinate reference system {}. Reproject the "
           "raster to {}.",
-          coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs)));
+          coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs));
     }
     for (int column = 0; column < layout.columns; ++column) {
       const auto k = static_cast<std::size_t>(column);

@@ -29,20 +29,18 @@ config::Polyline2 load_line(const config::Case& parameters, const std::string& k
       for (const Feature& feature : layer.features) {
         lines += feature.lines.size();
       }
-      throw UserError(
-          fmt::format("{}: the file has {} lines; allowed: one. Join them, or delete the others.", file, lines));
+      throw UserError("{}: the file has {} lines; allowed: one. Join them, or delete the others.", file, lines);
     }
     const config::Polyline2& line = layer.features.front().lines.front();
     if (line.size() < 2) {
-      throw UserError(fmt::format("{}: the line has {} corner; needed: at least 2.", file, line.size()));
+      throw UserError("{}: the line has {} corner; needed: at least 2.", file, line.size());
     }
     const Rectangle extent = extent_of(line);
     const Rectangle domain = domain_of(parameters);
     if (!extent.touches(domain)) {
       throw UserError(
-          fmt::format("{}: the line ({}) lies outside the domain ({}). Check that both have the same place "
-                      "and reference system.",
-                      file, format_range(extent), format_range(domain)));
+          "{}: the line ({}) lies outside the domain ({}). Check that both have the same place and reference system.",
+          file, format_range(extent), format_range(domain));
     }
     return line;
   });

@@ -56,9 +56,8 @@ config::SubstrateArea area_of_code(const config::Case& parameters, const std::st
   const CodesFound found = codes_in(domain_of(parameters), *codes);
   const auto own = found.by_code.find(substrate.code);
   if (own == found.by_code.end()) {
-    fail_at(parameters, substrate_key(name, "code"),
-            fmt::format("{}: the code {} stands nowhere in the domain; found there: {}.", substrate.raster,
-                        substrate.code, format_codes(found)));
+    fail_at(parameters, substrate_key(name, "code"), "{}: the code {} stands nowhere in the domain; found there: {}.",
+            substrate.raster, substrate.code, format_codes(found));
   }
   area.area = static_cast<double>(own->second.count) * codes->cell_x * codes->cell_y;
   return area;
@@ -87,13 +86,12 @@ void check_overlap(const config::Case& parameters, const std::string& first, con
     return;
   }
   const Rectangle extent = extent_of(both);
-  fail_at(
-      parameters, area_key(second, parameters.substrates.at(second)),
-      fmt::format(
+  fail_at(parameters, area_key(second, parameters.substrates.at(second)),
+
           "the substrates {} and {} overlap by {} m2 about {}, {}; a place has one substrate. Allowed: slivers up to "
           "{} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).",
           first, second, rounded_text(shared, 3), coordinate_text(0.5 * (extent.min_x + extent.max_x)),
-          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
+          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3), 100.0 * overlap_tolerance);
 }
 
 // Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those

@@ -67,9 +67,9 @@ std::set<std::string> touching_ones(const config::Case& parameters, const Releas
       const double one = parameters.bodies.at(first->first).taper, other = parameters.bodies.at(second->first).taper;
       if (one != other) {
         fail_at(parameters, key_of(second->first, "taper"),
-                fmt::format("the bodies '{}' and '{}' touch, or lie in one another's taper, and their tapers differ: "
-                            "{:g} m and {:g} m; allowed: the same. Set both keys to one value.",
-                            first->first, second->first, one, other));
+                "the bodies '{}' and '{}' touch, or lie in one another's taper, and their tapers differ: {:g} m and "
+                "{:g} m; allowed: the same. Set both keys to one value.",
+                first->first, second->first, one, other);
       }
       found.insert({first->first, second->first});
     }
@@ -155,14 +155,13 @@ void check_overlaps(const config::Case& parameters, const Releases& releases) {
         continue;
       }
       const Rectangle extent = extent_of(both);
-      fail_at(parameters, area_key(parameters, second->first),
-              fmt::format("the bodies '{}' and '{}' overlap by {} m2 about {}, {}; allowed: bodies that touch or lie "
-                          "apart, but for slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: "
-                          "Vector > Geoprocessing Tools > Difference).",
-                          first->first, second->first, rounded_text(shared, 3),
-                          coordinate_text(0.5 * (extent.min_x + extent.max_x)),
-                          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3),
-                          100.0 * overlap_tolerance));
+      fail_at(
+          parameters, area_key(parameters, second->first),
+          "the bodies '{}' and '{}' overlap by {} m2 about {}, {}; allowed: bodies that touch or lie apart, but for "
+          "slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > "
+          "Difference).",
+          first->first, second->first, rounded_text(shared, 3), coordinate_text(0.5 * (extent.min_x + extent.max_x)),
+          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3), 100.0 * overlap_tolerance);
     }
   }
 }

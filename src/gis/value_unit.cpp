@@ -99,19 +99,19 @@ std::optional<Unit> known_unit(const std::string& unit, Quantity quantity) {
 }
 
 [[noreturn]] void fail_with_unit(const StatedUnits& stated, const TextsOfQuantity& texts) {
-  throw UserError(fmt::format(
+  throw UserError(
       "{}: the unit of the values is '{}'; allowed: a unit of {} ({}). Check that it is the right file, or "
       "state the unit that the values have: gdal_edit.py -units {} {}",
-      stated.file, config::shown(stated.band), texts.of, texts.allowed, texts.short_own, shell_quote(stated.file)));
+      stated.file, config::shown(stated.band), texts.of, texts.allowed, texts.short_own, shell_quote(stated.file));
 }
 
 void check_that_both_agree(const StatedUnits& stated, double band_metres) {
   constexpr double agreement = 1e-5;  // relative; the two kinds of feet differ by less
   if (!states_nothing(stated.vertical) && std::abs(band_metres / stated.vertical_metres - 1.0) > agreement) {
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: two units are stated for the values: '{}' by the band, '{}' by the heights of the coordinate reference "
         "system; allowed: one. State the right one in both: gdal_edit.py -units m -a_srs EPSG:... {}",
-        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_quote(stated.file)));
+        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_quote(stated.file));
   }
 }
 

@@ -17,9 +17,8 @@ double value_of(const VectorLayer& layer, const Feature& feature, const std::str
     return number->second;
   }
   const auto text = feature.texts.find(attribute);
-  throw UserError(fmt::format("{}: the attribute '{}' of {} is {}; needed: a number. Fill it in.", layer.file,
-                              attribute, feature.title,
-                              text == feature.texts.end() ? "empty" : "'" + config::shown(text->second) + "'"));
+  throw UserError("{}: the attribute '{}' of {} is {}; needed: a number. Fill it in.", layer.file, attribute,
+                  feature.title, text == feature.texts.end() ? "empty" : "'" + config::shown(text->second) + "'");
 }
 
 // Fraction of the smaller area: overlap of adjacent outlines due to rounding, which is ignored.
@@ -32,12 +31,12 @@ void check_apart(const VectorLayer& layer, const std::string& attribute, const F
     return;
   }
   const Rectangle extent = extent_of(both);
-  throw UserError(fmt::format(
+  throw UserError(
       "{}: {} and {} overlap by {} m2 about {}, {}, and their '{}' differs: {:g} and {:g}. Give them the same value, "
       "or draw them apart.",
       layer.file, first.title, second.title, rounded_text(shared, 3),
       coordinate_text(0.5 * (extent.min_x + extent.max_x)), coordinate_text(0.5 * (extent.min_y + extent.max_y)),
-      attribute, first.numbers.at(attribute), second.numbers.at(attribute)));
+      attribute, first.numbers.at(attribute), second.numbers.at(attribute));
 }
 
 }  // namespace

@@ -72,24 +72,24 @@ GDALDatasetUniquePtr open_vector(const std::string& file, const std::string& rea
   if (dataset == nullptr) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
-      throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
+      throw UserError("{}: there is no such file. Correct the path.", file);
     }
     if (is_raster_file(file)) {
       throw UserError(
-          fmt::format("{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage, GeoJSON or KML. Is "
-                      "it swapped with another file? Correct the path.{}",
-                      file, name_of_kind(kind),
-                      kind == Kind::polygons ? " A raster of a body's thickness goes to thickness = { raster "
-                                               "= \"FILE\" }, which needs no polygons."
-                                             : ""));
+          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage, GeoJSON or KML. Is it swapped with "
+          "another file? Correct the path.{}",
+          file, name_of_kind(kind),
+          kind == Kind::polygons
+              ? " A raster of a body's thickness goes to thickness = { raster = \"FILE\" }, which needs no polygons."
+              : "");
     }
     if (const std::string cause = cause_of_unreadable_vector(file); !cause.empty()) {
-      throw UserError(fmt::format("{}: {}", file, cause));
+      throw UserError("{}: {}", file, cause);
     }
     throw UserError(
-        fmt::format("{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf), GeoPackage, "
-                    "GeoJSON or KML; check that the file is complete and readable.",
-                    file, messages.remark()));
+        "{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf), GeoPackage, GeoJSON or KML; "
+        "check that the file is complete and readable.",
+        file, messages.remark());
   }
   return dataset;
 }
@@ -130,17 +130,15 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
     return *chosen;
   }
   if (fitting.size() > 1) {
-    throw UserError(
-        fmt::format("{}: the file has {} layers of {}: {}; allowed: one. Export the one meant to a file of "
-                    "its own.",
-                    file, fitting.size(), name_of_kind(kind), config::comma_list(fitting)));
+    throw UserError("{}: the file has {} layers of {}: {}; allowed: one. Export the one meant to a file of its own.",
+                    file, fitting.size(), name_of_kind(kind), config::comma_list(fitting));
   }
   if (features == 0 || chosen != nullptr) {
-    throw UserError(fmt::format("{}: the layer is empty; needed: {}. Draw them, or name the file that has them.", file,
-                                name_of_kind(kind)));
+    throw UserError("{}: the layer is empty; needed: {}. Draw them, or name the file that has them.", file,
+                    name_of_kind(kind));
   }
-  throw UserError(fmt::format("{}: the file has no {}, but {}. Name the file that has them.", file, name_of_kind(kind),
-                              config::comma_list(all)));
+  throw UserError("{}: the file has no {}, but {}. Name the file that has them.", file, name_of_kind(kind),
+                  config::comma_list(all));
 }
 
 class LayerReader {
@@ -161,10 +159,8 @@ class LayerReader {
     }
     const auto require_whole = [&] {
       if (messages.any_error()) {
-        throw UserError(
-            fmt::format("{}: the features cannot be read{}. The file seems to be damaged or truncated: copy it "
-                        "again.",
-                        result_.file, messages.remark()));
+        throw UserError("{}: the features cannot be read{}. The file seems to be damaged or truncated: copy it again.",
+                        result_.file, messages.remark());
       }
     };
     for (const auto& feature : *layer_) {
@@ -183,9 +179,9 @@ class LayerReader {
   void require_few(std::size_t found, std::size_t most, const char* what) const {
     if (found > most) {
       throw UserError(
-          fmt::format("{}: the file has more than {} {}; allowed: as many. Export those that are meant to a "
-                      "file of their own, or simplify them (ogr2ogr -simplify).",
-                      result_.file, most, what));
+          "{}: the file has more than {} {}; allowed: as many. Export those that are meant to a file of their own, or "
+          "simplify them (ogr2ogr -simplify).",
+          result_.file, most, what);
     }
   }
 
@@ -206,8 +202,8 @@ class LayerReader {
     feature.name = name_of(source);
     feature.title = title_of(feature.name);
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
-      throw UserError(fmt::format("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file,
-                                  feature.title, name_of_kind(kind_)));
+      throw UserError("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file, feature.title,
+                      name_of_kind(kind_));
     }
     const std::unique_ptr<OGRGeometry> geometry(source.GetGeometryRef()->getLinearGeometry());
     geometry->flattenTo2D();
@@ -288,8 +284,8 @@ class LayerReader {
       default:
         break;
     }
-    throw UserError(fmt::format("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title,
-                                geometry.getGeometryName(), name_of_kind(kind_)));
+    throw UserError("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title, geometry.getGeometryName(),
+                    name_of_kind(kind_));
   }
 
   void reproject(Polyline2& line, const std::string& title) {
@@ -304,9 +300,9 @@ class LayerReader {
     for (std::size_t k = 0; k < line.size(); ++k) {
       if (!known || !std::isfinite(x[k]) || !std::isfinite(y[k])) {
         throw UserError(
-            fmt::format("{}: {} has a corner that has no place in the ground's coordinate reference system, near {}, "
-                        "{}. Check the system of the file.",
-                        result_.file, title, coordinate_text(line[k][0]), coordinate_text(line[k][1])));
+            "{}: {} has a corner that has no place in the ground's coordinate reference system, near {}, {}. Check the "
+            "system of the file.",
+            result_.file, title, coordinate_text(line[k][0]), coordinate_text(line[k][1]));
       }
       line[k] = {x[k], y[k]};
     }
@@ -349,18 +345,18 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
                [&](const std::string& attribute) { return lower_case(attribute) == lower_case(name); });
   if (alike.size() > 1) {
     throw UserError(
-        fmt::format("{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or "
-                    "one of exactly this name. Write the name as the file does, or rename the others.",
-                    layer.file, name, key, config::comma_list(all_shown(alike))));
+        "{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or one of exactly this "
+        "name. Write the name as the file does, or rename the others.",
+        layer.file, name, key, config::comma_list(all_shown(alike)));
   }
   if (alike.size() == 1) {
     return alike.front();
   }
   const std::vector<std::string> there = all_shown(layer.attributes);
   const std::string hint = config::did_you_mean(name, there);
-  throw UserError(fmt::format("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name,
-                              key, there.empty() ? "none" : config::comma_list(there),
-                              hint.empty() ? ". Correct the name, or add the attribute." : hint));
+  throw UserError("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name, key,
+                  there.empty() ? "none" : config::comma_list(there),
+                  hint.empty() ? ". Correct the name, or add the attribute." : hint);
 }
 
 std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,
@@ -388,9 +384,8 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
   const std::vector<std::string> there = all_shown(all);
   for (const std::string& name : names) {
     if (found.count(name) == 0) {
-      throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file,
-                                  config::shown(attribute), name, there.empty() ? "none" : config::comma_list(there),
-                                  config::did_you_mean(name, there)));
+      throw UserError("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file, config::shown(attribute), name,
+                      there.empty() ? "none" : config::comma_list(there), config::did_you_mean(name, there));
     }
   }
   return chosen;

@@ -63,9 +63,8 @@ class Reader {
   void expect(std::uint64_t expected, const char* what) {
     const std::uint64_t found = number();
     if (found != expected) {
-      throw UserError(
-          fmt::format("{} has {} {}; this run needs {}. Continue it with the case and program that wrote it.",
-                      file_.string(), what, found, expected));
+      throw UserError("{} has {} {}; this run needs {}. Continue it with the case and program that wrote it.",
+                      file_.string(), what, found, expected);
     }
   }
 
@@ -134,9 +133,9 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
   const std::string name = reader.text();
   if (name != field.info().name) {
     throw UserError(
-        fmt::format("{} has the field '{}' where this program has '{}'. Continue the run with the version that wrote "
-                    "it (run.json names it).",
-                    file.string(), config::shown(name), field.info().name));
+        "{} has the field '{}' where this program has '{}'. Continue the run with the version that wrote it (run.json "
+        "names it).",
+        file.string(), config::shown(name), field.info().name);
   }
   reader.expect(row_bytes, fmt::format("bytes a particle of the field '{}':", name).c_str());
   std::vector<std::byte> rows(row_bytes * particles);
@@ -162,9 +161,9 @@ std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkp
 WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
   if (!has_checkpoint(folder)) {
     throw UserError(
-        fmt::format("{} holds no {} to continue from. A run writes it before its first step: this is not the folder of "
-                    "a run, or the run was stopped during its setup. Run the case again.",
-                    folder.string(), checkpoint_name));
+        "{} holds no {} to continue from. A run writes it before its first step: this is not the folder of a run, or "
+        "the run was stopped during its setup. Run the case again.",
+        folder.string(), checkpoint_name);
   }
   WholeCheckpoint found;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {

@@ -19,7 +19,7 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw WriteError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    throw WriteError("cannot make the folder {}: {}", folder.string(), error.message());
   }
 }
 
@@ -51,8 +51,7 @@ void remove_or_throw(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
   if (error) {
-    throw WriteError(
-        fmt::format("cannot remove {}: {}. Check that the folder may be written to.", file.string(), error.message()));
+    throw WriteError("cannot remove {}: {}. Check that the folder may be written to.", file.string(), error.message());
   }
 }
 
@@ -63,15 +62,15 @@ std::string read_file(const fs::path& file) {
   std::string text(stream ? static_cast<std::size_t>(stream.tellg()) : 0, '\0');
   stream.seekg(0).read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!stream) {
-    throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+    throw UserError("cannot read {}: {}", file.string(), std::strerror(errno));
   }
   return text;
 }
 
 void require_regular(const fs::path& file) {
   if (const std::string found = config::other_kind_of_file(file); !found.empty()) {
-    throw UserError(fmt::format("{} is {}; a regular file is needed. Replace it by the file itself, or remove it.",
-                                file.string(), found));
+    throw UserError("{} is {}; a regular file is needed. Replace it by the file itself, or remove it.", file.string(),
+                    found);
   }
 }
 

@@ -21,7 +21,7 @@ namespace {
 int open_or_throw(const std::filesystem::path& file, int flags) {
   const int descriptor = open(file.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
+    throw WriteError("cannot write {}: {}", file.string(), std::strerror(errno));
   }
   return descriptor;
 }
@@ -184,15 +184,15 @@ void HistoryWriter::add(const Row& row) {
 
 void HistoryWriter::synchronize() const {
   if (fsync(descriptor_) != 0 && errno != EINVAL) {  // EINVAL: not a file, such as a terminal
-    throw WriteError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
+    throw WriteError("cannot write {}: {}", file_.string(), std::strerror(errno));
   }
 }
 
 void HistoryWriter::append(const std::string& text) {
   const ssize_t written = write(descriptor_, text.data(), text.size());
   if (written != static_cast<ssize_t>(text.size())) {
-    throw WriteError(fmt::format("cannot write {}: {}. The disk may be full.", file_.string(),
-                                 written < 0 ? std::strerror(errno) : "only part of a row was written"));
+    throw WriteError("cannot write {}: {}. The disk may be full.", file_.string(),
+                     written < 0 ? std::strerror(errno) : "only part of a row was written");
   }
   extent_.bytes += text.size();
 }

@@ -88,10 +88,10 @@ RunPart part_of(const OrderedJson& json) {
 }
 
 [[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
-  throw UserError(fmt::format(
+  throw UserError(
       "{} is damaged: {}. Without it, the run cannot continue. Put back a copy of it, or run the case again into "
       "another folder: thawslide run {} --output OTHER.",
-      file.string(), what, shell_quote(file.parent_path().string())));
+      file.string(), what, shell_quote(file.parent_path().string()));
 }
 
 }  // namespace
@@ -169,9 +169,9 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
     const std::string name = file.filename().string();
     if (is_unfinished(file)) {
       throw UserError(
-          fmt::format("{} has a name that the program gives to files while it writes them, and that it removes. Give "
-                      "the file another name.",
-                      file.string()));
+          "{} has a name that the program gives to files while it writes them, and that it removes. Give the file "
+          "another name.",
+          file.string());
     }
     THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which run::input_files refuses", name);
     const auto known = texts.find(file);

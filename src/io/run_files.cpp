@@ -157,8 +157,8 @@ void copy_or_throw(const fs::path& from, const fs::path& to, bool as_link) {
     fs::copy_file(from, to, error);
   }
   if (error) {
-    throw WriteError(fmt::format("{} cannot be copied to {}: {}. Check the permissions and the free space.",
-                                 from.string(), to.string(), error.message()));
+    throw WriteError("{} cannot be copied to {}: {}. Check the permissions and the free space.", from.string(),
+                     to.string(), error.message());
   }
 }
 

@@ -27,13 +27,12 @@ void require_replaceable(const fs::path& folder, bool overwrite) {
   }
   const AtWork at_work = process_at_work(folder);
   if (!at_work.process.empty()) {
-    throw UserError(fmt::format("the output folder {} {} written by {}. Specify another --output.", folder.string(),
-                                at_work.is_known ? "is being" : "may be being", at_work.process));
+    throw UserError("the output folder {} {} written by {}. Specify another --output.", folder.string(),
+                    at_work.is_known ? "is being" : "may be being", at_work.process);
   }
   throw UserError(
-      fmt::format("the output folder {} contains another run. Specify another --output, or replace that run "
-                  "with --overwrite.",
-                  folder.string()));
+      "the output folder {} contains another run. Specify another --output, or replace that run with --overwrite.",
+      folder.string());
 }
 
 }  // namespace
@@ -49,18 +48,17 @@ fs::path existing_part(const fs::path& folder) {
 void require_usable(const fs::path& folder, bool overwrite) {
   if (fs::is_symlink(folder) && !fs::exists(folder)) {
     throw UserError(
-        fmt::format("the output folder {} cannot be made: it is a link to a folder that is not there. Give another "
-                    "--output.",
-                    folder.string()));
+        "the output folder {} cannot be made: it is a link to a folder that is not there. Give another --output.",
+        folder.string());
   }
   const fs::path part = existing_part(folder);
   if (!fs::is_directory(part)) {
-    throw UserError(fmt::format("the output folder {} cannot be made: {} is a file. Give another --output.",
-                                folder.string(), part.string()));
+    throw UserError("the output folder {} cannot be made: {} is a file. Give another --output.", folder.string(),
+                    part.string());
   }
   if (access(part.c_str(), W_OK) != 0) {
-    throw UserError(fmt::format("the output folder {} cannot be written: no permission for {}. Give another --output.",
-                                folder.string(), part.string()));
+    throw UserError("the output folder {} cannot be written: no permission for {}. Give another --output.",
+                    folder.string(), part.string());
   }
   if (fs::exists(folder) && !fs::is_empty(folder) && !contains_only_a_start(folder)) {
     require_replaceable(folder, overwrite);
@@ -70,9 +68,9 @@ void require_usable(const fs::path& folder, bool overwrite) {
 void require_own_folders(const fs::path& folder, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (fs::is_symlink(folder / name)) {
-      throw UserError(fmt::format(
+      throw UserError(
           "{} is a link; a run writes and reads its files in its own folder alone. Put the folder itself there.",
-          (folder / name).string()));
+          (folder / name).string());
     }
   }
 }
@@ -82,8 +80,8 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw WriteError(fmt::format("the output folder {} cannot be made: {}. Give another --output.", folder.string(),
-                                 error.message()));
+    throw WriteError("the output folder {} cannot be made: {}. Give another --output.", folder.string(),
+                     error.message());
   }
   RunLock lock(folder);
   require_usable(folder, overwrite);

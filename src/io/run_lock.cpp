@@ -118,7 +118,7 @@ std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
 int acquire_lock(const fs::path& file) {
   const int descriptor = open_lock(file, O_RDWR | O_CREAT);
   if (descriptor < 0) {
-    throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
+    throw WriteError("cannot write {}: {}", file.string(), std::strerror(errno));
   }
   const Lock lock = acquire(descriptor);
   const AtWork at_work = at_work_by(descriptor, lock);
@@ -143,7 +143,7 @@ RunLock::RunLock(const fs::path& folder) : file_(folder / lock_name), descriptor
   if (ftruncate(descriptor_, 0) != 0 || write(descriptor_, text.data(), text.size()) < 0) {
     const int reason = errno;
     close(descriptor_);
-    throw WriteError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(reason)));
+    throw WriteError("cannot write {}: {}", file_.string(), std::strerror(reason));
   }
 }
 
@@ -189,10 +189,10 @@ bool OwnFolder::is_own() const {
 void OwnFolder::require() const {
   if (!is_own()) {
     throw WriteError(
-        fmt::format("{} is no longer the folder in which this run began: that folder was moved or removed, its {} was, "
-                    "or another run has taken its place. Nothing more is written there. From where the folder is now, "
-                    "`thawslide resume` continues from the last checkpoint.",
-                    lock_.parent_path().string(), lock_name));
+        "{} is no longer the folder in which this run began: that folder was moved or removed, its {} was, or another "
+        "run has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` "
+        "continues from the last checkpoint.",
+        lock_.parent_path().string(), lock_name);
   }
 }
 
@@ -201,8 +201,8 @@ AtWork process_at_work(const fs::path& folder) {
   const int descriptor = open_lock(file, O_RDONLY);
   if (descriptor < 0) {
     if (errno != ENOENT && errno != ENOTDIR) {
-      throw UserError(fmt::format("cannot read {}: {}. It shows whether a run is active there.", file.string(),
-                                  std::strerror(errno)));
+      throw UserError("cannot read {}: {}. It shows whether a run is active there.", file.string(),
+                      std::strerror(errno));
     }
     return {};
   }

@@ -121,8 +121,8 @@ void bind_map_files(nb::module_& module) {
     gis::write_geotiff(file, raster, {unit, description});
   });
   module.def("write_polygons", &write_polygons,
-             nb::sig("def write_polygons(file: str, layer: str, features: object, columns: "
-                     "dict[str, list[float] | list[str]], crs: str, /) -> None"));
+             nb::sig("def write_polygons(file: str, layer: str, features: object, columns: dict[str, list[float] | "
+                     "list[str]], crs: str, /) -> None"));
   module.def("is_same_system", [](const std::string& one, const std::string& other) {
     return one.empty() == other.empty() && gis::Reprojection(one, other).changes_nothing();
   });

@@ -16,14 +16,14 @@ std::string use_device(const std::string& device, sim::Simulation<Dim>& simulati
     return "";
   }
   if (device != "gpu" && device != "auto") {
-    throw UserError(fmt::format("device is '{}'; allowed: cpu, gpu, auto.", device));
+    throw UserError("device is '{}'; allowed: cpu, gpu, auto.", device);
   }
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable && device == "auto") {
     return "";
   }
   if (!gpu.is_usable) {
-    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.unavailable_reason));
+    throw UserError("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.unavailable_reason);
   }
   simulation.use_device(gpu.name, device::on_gpu<Dim>());
   return gpu.name;

@@ -131,8 +131,8 @@ std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need
                                : fmt::format("{} snapshots of {} MB, {} GB", count_text(need.snapshots),
                                              rounded_text(need.snapshot / 1e6), rounded_text(of_snapshots / gigabyte));
   return fmt::format(
-      "{}: {} is {:g} s: that is {}; with all else {} GB, and {} GB are free where {} is. Make it larger, or "
-      "write to another disk (--output).",
+      "{}: {} is {:g} s: that is {}; with all else {} GB, and {} GB are free where {} is. Make it larger, or write to "
+      "another disk (--output).",
       config::location_of(parameters, key), key, interval, what, rounded_text(need.total() / gigabyte),
       rounded_text(free / gigabyte), folder.string());
 }

@@ -35,9 +35,9 @@ std::vector<fs::path> input_files(const config::Case& parameters) {
         files.push_back(file);
       } else if (found->second != file) {
         throw UserError(
-            fmt::format("{} and {} have the same name; allowed: names of their own, since a run keeps copies of all "
-                        "its inputs in one folder. Rename one.",
-                        found->second.string(), file.string()));
+            "{} and {} have the same name; allowed: names of their own, since a run keeps copies of all its inputs in "
+            "one folder. Rename one.",
+            found->second.string(), file.string());
       }
     }
   }

@@ -45,7 +45,7 @@ class LiveRunOf final : public LiveRun {
     if (simulation_->needs_settling()) {
       observer.line("settling under gravity for {:g} s", parameters.mechanics.settle_time);
       if (!simulation_->settle([&] { return observer.interruption().empty(); })) {
-        throw UserError(fmt::format("interrupted by {} while the body settled", observer.interruption()));
+        throw UserError("interrupted by {} while the body settled", observer.interruption());
       }
     }
     records_.start(*simulation_);
@@ -127,7 +127,7 @@ class LiveRunOf final : public LiveRun {
     const std::vector<sim::MapKind>& kinds = sim::map_kinds();
     const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return name == kind.name; });
     if (records_.maps() == nullptr || found == kinds.end()) {
-      throw UserError(fmt::format("no map {}. Only 3D cases have maps; `maps` lists them.", name));
+      throw UserError("no map {}. Only 3D cases have maps; `maps` lists them.", name);
     }
     return records_.maps()->raster(*found, sim::MapExtent::whole_grid);
   }
@@ -187,7 +187,7 @@ class LiveRunOf final : public LiveRun {
     for (const FieldDescription& each : fields()) {
       names.push_back(each.name);
     }
-    throw UserError(fmt::format("there is no particle field '{}'; allowed: {}.", name, fmt::join(names, ", ")));
+    throw UserError("there is no particle field '{}'; allowed: {}.", name, fmt::join(names, ", "));
   }
 
   void change(const config::Case& next, const std::vector<std::string>& sets) override {
@@ -222,8 +222,8 @@ class LiveRunOf final : public LiveRun {
     const std::string of_checkpoint = io::case_of(io::intact_checkpoint(checkpoint_title, checkpoint));
     const std::vector<std::string> other = config::differences(config::resolved_toml(parameters(), ""), of_checkpoint);
     if (!other.empty()) {
-      throw UserError(fmt::format("the checkpoint is of another case: {}. Restore it in a simulation of its case.",
-                                  fmt::join(other, "; ")));
+      throw UserError("the checkpoint is of another case: {}. Restore it in a simulation of its case.",
+                      fmt::join(other, "; "));
     }
     replace(std::make_shared<Simulation>(parameters(), simulation_->site()), checkpoint);
   }

@@ -28,9 +28,9 @@ config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] War
   return std::move(read.site);
 #else
   throw UserError(
-      fmt::format("{}: terrain.type is \"dem\", and this build of thawslide cannot read maps: it was made without "
-                  "GDAL. Install libgdal-dev and build again (`./run --setup`), or use a profile.",
-                  config::location_of(parameters, "terrain.type")));
+      "{}: terrain.type is \"dem\", and this build of thawslide cannot read maps: it was made without GDAL. Install "
+      "libgdal-dev and build again (`./run --setup`), or use a profile.",
+      config::location_of(parameters, "terrain.type"));
 #endif
 }
 

@@ -45,10 +45,10 @@ ExitCode leave_finished(const fs::path& folder, const io::Provenance& facts, Obs
         is_known ? config::differences(io::read_file(file), io::case_of(io::newest_checkpoint(folder)))
                  : std::vector<std::string>{"its SHA-256 is not that of run.json"};
     if (!changes.empty()) {
-      throw UserError(fmt::format("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
-                                  facts.simulated_time, file.string(), fmt::join(changes, "; "),
-                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case again.")
-                                           : "There is no checkpoint to continue from: run the case again."));
+      throw UserError("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
+                      facts.simulated_time, file.string(), fmt::join(changes, "; "),
+                      is_known ? advice_on(folder, facts, changes, "Put that back, or run the case again.")
+                               : "There is no checkpoint to continue from: run the case again.");
     }
   }
   observer.line("{} has reached its end at {:g} s{}; nothing to do", folder.string(), facts.simulated_time,
@@ -110,10 +110,8 @@ std::unique_ptr<sim::Simulation<Dim>> simulation_of(const fs::path& folder, cons
     if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
       throw;
     }
-    throw UserError(
-        fmt::format("{} Specify changes of a run on the command line: thawslide resume {} --set "
-                    "KEY=VALUE.",
-                    error.what(), shell_quote(folder.string())));
+    throw UserError("{} Specify changes of a run on the command line: thawslide resume {} --set KEY=VALUE.",
+                    error.what(), shell_quote(folder.string()));
   }
 }
 
@@ -141,9 +139,9 @@ bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next
   const bool is_end_alone = config::keys_of(changes) == std::set<std::string>{"time.end"};
   if (has_reached_end(simulation.time(), simulation.last_step(), next.parameters.time.end)) {
     if (!changes.empty() && !is_end_alone) {
-      throw UserError(fmt::format(
+      throw UserError(
           "{} has reached its end at {:g} s: no step is left that could take {}. Give a later end too: --end T.",
-          folder.string(), simulation.time(), fmt::join(changes, ", ")));
+          folder.string(), simulation.time(), fmt::join(changes, ", "));
     }
     observer.line("{} has reached its end at {:g} s; nothing to do", folder.string(), simulation.time());
     return false;
@@ -159,9 +157,8 @@ bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next
              !has_reached_end(simulation.time(), simulation.last_step(), next.earlier_end) && !falls_back &&
              !next.earlier.message.empty()) {
     throw UserError(
-        fmt::format("{} has ended, and no particles are left to continue with: {}. Run the case again, "
-                    "in a larger domain.",
-                    folder.string(), next.earlier.message));
+        "{} has ended, and no particles are left to continue with: {}. Run the case again, in a larger domain.",
+        folder.string(), next.earlier.message);
   }
   return true;
 }
@@ -177,9 +174,8 @@ std::string keep_damaged(const fs::path& damaged) {
   fs::rename(damaged, aside, error);
   if (error) {
     throw WriteError(
-        fmt::format("{} cannot be renamed to {}: {}. Make the run's folder one that can be written, then resume "
-                    "again.",
-                    damaged.string(), aside.filename().string(), error.message()));
+        "{} cannot be renamed to {}: {}. Make the run's folder one that can be written, then resume again.",
+        damaged.string(), aside.filename().string(), error.message());
   }
   return fmt::format("it is kept as {}, and ", aside.filename().string());
 }
@@ -195,7 +191,7 @@ ExitCode continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpo
   try {
     restore_state<Dim>(simulation, scalars, blocks);
   } catch (const UserError& error) {
-    throw UserError(fmt::format("{}: {}", checkpoint.file.string(), error.what()));
+    throw UserError("{}: {}", checkpoint.file.string(), error.what());
   }
   use_device<Dim>(next.device, simulation);
   const double end = next.parameters.time.end;
@@ -237,9 +233,9 @@ ExitCode continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpo
 void require_run_folder(const fs::path& folder) {
   if (!fs::exists(folder / "run.json")) {
     throw UserError(
-        fmt::format("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` "
-                    "printed, or run the case again.",
-                    folder.string()));
+        "{} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed, or run the case "
+        "again.",
+        folder.string());
   }
 }
 
@@ -263,9 +259,8 @@ void copy_run(const fs::path& folder, const fs::path& copy, const std::function<
 ExitCode resume_copy(const ResumeOptions& options, Observer& observer) {
   config::require_changeable(options.sets);
   if (const io::AtWork at_work = io::process_at_work(options.folder); !at_work.process.empty()) {
-    throw UserError(fmt::format("{} {} written by {}. Stop the run before a copy of it is continued.",
-                                options.folder.string(), at_work.is_known ? "is being" : "may be being",
-                                at_work.process));
+    throw UserError("{} {} written by {}. Stop the run before a copy of it is continued.", options.folder.string(),
+                    at_work.is_known ? "is being" : "may be being", at_work.process);
   }
   io::require_usable(options.output, false);
   const bool is_new = !fs::exists(options.output);

@@ -54,9 +54,9 @@ void require_same_changes(const fs::path& folder, const std::vector<std::string>
     missing.insert(missing.end(), sets.begin(), sets.end());
     std::vector<std::string> words(missing.size());
     std::transform(missing.begin(), missing.end(), words.begin(), shell_quote);
-    throw UserError(fmt::format(
+    throw UserError(
         "the last resume was interrupted before its change took effect. Specify it again: thawslide resume {} --set {}",
-        shell_quote(folder.string()), fmt::join(words, " --set ")));
+        shell_quote(folder.string()), fmt::join(words, " --set "));
   }
 }
 
@@ -68,10 +68,10 @@ void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& fac
                                     [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
   if (!is_known) {
     const std::vector<std::string> differences = config::differences(of_checkpoint, now);
-    throw UserError(fmt::format(
+    throw UserError(
         "the checkpoint of {} was not written by this run: run.json lists no part with its case{}{}. Put back the "
         "run's own checkpoint.bin or checkpoint.previous.bin, or run the case again.",
-        folder.string(), differences.empty() ? "" : ", in which ", fmt::join(differences, "; ")));
+        folder.string(), differences.empty() ? "" : ", in which ", fmt::join(differences, "; "));
   }
 }
 
@@ -94,8 +94,8 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
   for (const io::InputFile& input : inputs) {
     const fs::path copy = folder / input.copy;
     if (fs::path(input.copy).parent_path() != "inputs") {
-      throw UserError(fmt::format("{}: damaged: it names {} as the copy of an input; those lie in inputs/.",
-                                  (folder / "run.json").string(), input.copy));
+      throw UserError("{}: damaged: it names {} as the copy of an input; those lie in inputs/.",
+                      (folder / "run.json").string(), input.copy);
     }
     const auto is_copy_of = [&copy](const fs::path& file) { return copy.filename() == file.filename(); };
     if (is_copy_of(now.report.targets) || is_copy_of(now.report.force_record)) {
@@ -117,9 +117,9 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
   }
   if (!changed.empty()) {
     throw UserError(
-        fmt::format("{}. A run continues with the inputs of its start (run.json has their SHA-256): put them back, or "
-                    "run the case again.",
-                    fmt::join(changed, "; ")));
+        "{}. A run continues with the inputs of its start (run.json has their SHA-256): put them back, or run the case "
+        "again.",
+        fmt::join(changed, "; "));
   }
 }
 
@@ -162,8 +162,8 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
           "Put that back, or remove the file, which is then written again. Specify changes on the command line: "
           "thawslide resume {} --set KEY=VALUE, or --end T.",
           shell_quote(folder.string()));
-      throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
-                                  fmt::join(changes, "; "), advice_on(folder, facts, changes, usual)));
+      throw UserError("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
+                      fmt::join(changes, "; "), advice_on(folder, facts, changes, usual));
     }
     cut_off = changes_cut_off(facts, sha256_of_text(before));  // the case text is that of the checkpoint
   }
@@ -175,9 +175,9 @@ void require_case_of_start(const fs::path& folder, const io::Provenance& facts, 
   const bool is_present = fs::exists(file);
   const auto cut_off = changes_cut_off(facts, is_present ? io::sha256_of_file(file) : "");
   if (!cut_off) {
-    throw UserError(fmt::format(
-        "{} {}, and no checkpoint holds its content. Put back what was there, or run the case again.", file.string(),
-        is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
+    throw UserError("{} {}, and no checkpoint holds its content. Put back what was there, or run the case again.",
+                    file.string(),
+                    is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing");
   }
   require_same_changes(folder, *cut_off, sets);
 }
@@ -186,15 +186,13 @@ void require_same_guards(const config::Case& before, const config::Case& now) {
   if (config::guards_remove(before) != config::guards_remove(now)) {
     throw UserError(
         "the history has a column removed_mass_kg if [guards] may remove particles, and none otherwise: a continued "
-        "run "
-        "cannot change this. Run the case again.");
+        "run cannot change this. Run the case again.");
   }
 }
 
 void require_end_ahead(double end, double reached, double step) {
   if (end < reached - 0.5 * step) {
-    throw UserError(
-        fmt::format("the end of {:g} s has passed: the run had reached {:g} s. Give a later one.", end, reached));
+    throw UserError("the end of {:g} s has passed: the run had reached {:g} s. Give a later one.", end, reached);
   }
 }
 
@@ -202,11 +200,11 @@ void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& 
   const double reached_before =
       std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
   if (facts.steps > 0 || reached_before > 0.0) {
-    throw UserError(fmt::format(
+    throw UserError(
         "{0} had reached {1:g} s, but checkpoint.bin and checkpoint.previous.bin are missing. A new start would "
-        "overwrite its results. Put one of them back, or run the case again in another folder: thawslide "
-        "run {2} --output OTHER.",
-        folder.string(), reached_before, shell_quote(folder.string())));
+        "overwrite its results. Put one of them back, or run the case again in another folder: thawslide run {2} "
+        "--output OTHER.",
+        folder.string(), reached_before, shell_quote(folder.string()));
   }
 }
 

@@ -42,8 +42,8 @@ const char* mixing_advice(bool mixes) {
 std::string of_dry(double time, std::ptrdiff_t dry, double hottest, bool mixes) {
   return fmt::format(
       "warning: at {} s {} of the base {} boiled dry, and the hottest is at {:.0f} C. Without water, boiling no longer "
-      "limits temperature and friction. A thicker band (band.thickness) or {} keeps it "
-      "cooler; docs/choosing-the-base.md.",
+      "limits temperature and friction. A thicker band (band.thickness) or {} keeps it cooler; "
+      "docs/choosing-the-base.md.",
       rounded_text(time, 3), dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest,
       mixing_advice(mixes));
 }
