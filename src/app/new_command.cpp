@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "run/input_files.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
@@ -60,17 +61,15 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   std::array<bool, 4> reached{};  // west, east, south, north
   constexpr std::array<const char*, 4> sides{"west", "east", "south", "north"};
   const gis::PointWindow window = gis::points_of(thickness, ground);
-  for (int row = 0; row < thickness.rows; ++row) {
-    for (int column = 0; column < thickness.columns; ++column) {
-      if (thickness.at(column, row) > 0.0) {
-        const int i = window.first_column + column, j = window.first_row + row;
-        reached[0] = reached[0] || i == 0;
-        reached[1] = reached[1] || i == ground.columns - 1;
-        reached[2] = reached[2] || j == 0;
-        reached[3] = reached[3] || j == ground.rows - 1;
-      }
+  for_each_point(thickness, [&](int column, int row, double value) {
+    if (value > 0.0) {
+      const int i = window.first_column + column, j = window.first_row + row;
+      reached[0] = reached[0] || i == 0;
+      reached[1] = reached[1] || i == ground.columns - 1;
+      reached[2] = reached[2] || j == 0;
+      reached[3] = reached[3] || j == ground.rows - 1;
     }
-  }
+  });
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (reached[k]) {
       throw UserError(
@@ -240,7 +239,7 @@ std::optional<run::RunCost> cost_of_run(const fs::path& folder) {
 
 int make_new_case(const NewOptions& options) {
   run::use_threads(0);
-  const std::string release_name = fs::path(options.maps.release).filename().string();
+  const std::string release_name = name_of_file(options.maps.release);
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);
   config::Case trial = trial_case(options.folder, options.maps);
@@ -249,7 +248,7 @@ int make_new_case(const NewOptions& options) {
     if (const std::string& file = options.outlines.at(each.name); !file.empty()) {
       trial.substrates[each.name].outline = file;
       trial.locations[fmt::format("substrate.{}.outline", each.name)] = each.option;
-      input.outlines[each.name] = fs::path(file).filename().string();
+      input.outlines[each.name] = name_of_file(file);
       require_utf8(each.option, input.outlines[each.name]);
     }
   }

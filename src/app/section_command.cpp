@@ -10,6 +10,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/section_proposal.hpp"
 #include "io/terrain_csv.hpp"
@@ -25,7 +26,7 @@ constexpr const char* profile_name = "profile.csv";
 constexpr const char* line_option = "--line";
 
 // File name in a form that fits a line of comments.
-std::string name_of(const std::string& file) { return config::shown(fs::path(file).filename().string()); }
+std::string name_of(const std::string& file) { return config::shown(name_of_file(file)); }
 
 struct Cut {
   config::ProfileTable profile;

@@ -55,12 +55,9 @@ Json numbers_on_map(const sim::Simulation<3>& simulation) {
   }
   Raster numbers = *simulation.site().ground;
   const auto& origin = simulation.model().origin;
-  for (int row = 0; row < numbers.rows; ++row) {
-    for (int column = 0; column < numbers.columns; ++column) {
-      numbers.values[numbers.index(column, row)] =
-          substrates->at(numbers.x_of(column) - origin[0], numbers.y_of(row) - origin[1]);
-    }
-  }
+  for_each_point(numbers, [&](int column, int row, double& value) {
+    value = substrates->at(numbers.x_of(column) - origin[0], numbers.y_of(row) - origin[1]);
+  });
   return thinned(numbers);
 }
 

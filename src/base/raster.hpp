@@ -23,12 +23,22 @@ struct Raster {
   [[nodiscard]] double y_of(int row) const { return y + row * cell_y; }
   [[nodiscard]] double x_end() const { return x_of(columns - 1); }
   [[nodiscard]] double y_end() const { return y_of(rows - 1); }
-  // The same points with a uniform value.
+  // The same points, with or without values, with a uniform value.
   [[nodiscard]] Raster filled(double value) const {
     Raster other = *this;
-    other.values.assign(values.size(), value);
+    other.values.assign(index(0, rows), value);
     return other;
   }
 };
+
+// Calls work(column, row, value) for each point, from south to north; value: a reference.
+template <class SomeRaster, class Work>
+void for_each_point(SomeRaster& raster, const Work& work) {
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      work(column, row, raster.values[raster.index(column, row)]);
+    }
+  }
+}
 
 }  // namespace thawslide

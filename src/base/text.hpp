@@ -26,6 +26,11 @@ namespace thawslide {
   return "; write a decimal point: " + text;
 }
 
+// Last component of a path.
+[[nodiscard]] inline std::string name_of_file(std::string_view path) {
+  return std::string(path.substr(path.rfind('/') + 1));
+}
+
 // Text with the letters A to Z in lower case, independent of the locale.
 [[nodiscard]] inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

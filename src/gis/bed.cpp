@@ -3,12 +3,10 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "gis/case_inputs.hpp"
 #include "gis/coverage.hpp"
-#include "gis/error_location.hpp"
-#include "gis/map_raster.hpp"
-#include "gis/named_polygons.hpp"
+#include "gis/features.hpp"
 #include "gis/sampling.hpp"
-#include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
 
@@ -47,8 +45,7 @@ Raster columns_of_nodes(const config::Grid& grid) {
   columns.cell_x = columns.cell_y = grid.cell;
   columns.columns = static_cast<int>(std::lround((grid.max[0] - grid.min[0]) / grid.cell)) + 1;
   columns.rows = static_cast<int>(std::lround((grid.max[1] - grid.min[1]) / grid.cell)) + 1;
-  columns.values.assign(static_cast<std::size_t>(columns.columns) * static_cast<std::size_t>(columns.rows), 0.0);
-  return columns;
+  return columns.filled(0.0);
 }
 
 }  // namespace
@@ -65,21 +62,18 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
       read_map(parameters, {key, depth.source, Quantity::length, ground.raster.crs, about, "the domain"}, warnings);
   return with_error_location(parameters, key, [&] {
     Raster made = sampled(map, ground.raster, Missing::unknown);
-    for (int row = 0; row < made.rows; ++row) {
-      for (int column = 0; column < made.columns; ++column) {
-        const double x = made.x_of(column), y = made.y_of(row);
-        double& value = made.values[made.index(column, row)];
-        if (domain.contains(x, y) && !(value >= 0.0 && value <= parameters.grid.cell)) {
-          throw UserError(
-              "{}: at {}, {}, in the domain, the depth of the bed is {}; allowed: from 0 m, where there is no bed, to "
-              "grid.cell, {:g} m. {}",
-              depth.source, coordinate_text(x), coordinate_text(y),
-              std::isnan(value) ? "missing" : fmt::format("{:g} m", value), parameters.grid.cell,
-              std::isnan(value) ? "Fill the raster with 0 over the whole domain, or make the domain smaller."
-                                : "Check the raster's unit.");
-        }
+    for_each_point(made, [&](int column, int row, double value) {
+      const double x = made.x_of(column), y = made.y_of(row);
+      if (domain.contains(x, y) && !(value >= 0.0 && value <= parameters.grid.cell)) {
+        throw UserError(
+            "{}: at {}, {}, in the domain, the depth of the bed is {}; allowed: from 0 m, where there is no bed, to "
+            "grid.cell, {:g} m. {}",
+            depth.source, coordinate_text(x), coordinate_text(y),
+            std::isnan(value) ? "missing" : fmt::format("{:g} m", value), parameters.grid.cell,
+            std::isnan(value) ? "Fill the raster with 0 over the whole domain, or make the domain smaller."
+                              : "Check the raster's unit.");
       }
-    }
+    });
     return made;
   });
 }

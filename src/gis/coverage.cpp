@@ -1,6 +1,16 @@
 #include "gis/coverage.hpp"
 
+#include <gdal_alg.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 #include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/geometry.hpp"
 
 namespace thawslide::gis {
 
@@ -76,8 +86,7 @@ void add_ring(const Polyline2& corners, bool is_hole, Raster& fractions) {
 }  // namespace
 
 Raster coverage_of(const Polygons& polygons, const Raster& layout) {
-  Raster fractions = layout;
-  fractions.values.assign(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows), 0.0);
+  Raster fractions = layout.filled(0.0);
   for (const Polygon& polygon : polygons) {
     add_ring(polygon.outline, false, fractions);
     for (const Polyline2& hole : polygon.holes) {
@@ -90,6 +99,33 @@ Raster coverage_of(const Polygons& polygons, const Raster& layout) {
     fraction = fraction < rounding ? 0.0 : fraction > 1.0 - rounding ? 1.0 : fraction;
   }
   return fractions;
+}
+
+Polygons areas_of_mask(const Raster& mask) {
+  const GdalMessages messages;
+  std::vector<std::uint8_t> bytes(mask.values.size());
+  std::transform(mask.values.begin(), mask.values.end(), bytes.begin(),
+                 [](double value) { return value != 0.0 && !std::isnan(value); });
+  const auto create = [](const char* driver, int columns, int rows, int bands) {
+    return GDALDatasetUniquePtr(
+        GetGDALDriverManager()->GetDriverByName(driver)->Create("", columns, rows, bands, GDT_Byte, nullptr));
+  };
+  const GDALDatasetUniquePtr dataset = create("MEM", mask.columns, mask.rows, 1), found = create("Memory", 0, 0, 0);
+  double transform[6] = {mask.x - 0.5 * mask.cell_x, mask.cell_x, 0.0, mask.y - 0.5 * mask.cell_y, 0.0, mask.cell_y};
+  dataset->SetGeoTransform(transform);
+  OGRLayer* const layer = found->CreateLayer("areas", nullptr, wkbPolygon, nullptr);
+  GDALRasterBand* const band = dataset->GetRasterBand(1);
+  // The mask serves as its own mask: no polygons where it is 0.
+  const bool is_done = band->RasterIO(GF_Write, 0, 0, mask.columns, mask.rows, bytes.data(), mask.columns, mask.rows,
+                                      GDT_Byte, 0, 0, nullptr) == CE_None &&
+                       GDALPolygonize(band, band, layer, -1, nullptr, nullptr, nullptr) == CE_None;
+  THAWSLIDE_ASSERT(is_done, "no areas of {} x {} points{}", mask.columns, mask.rows, messages.remark());
+  Polygons areas;
+  for (const auto& feature : *layer) {
+    const Polygons more = areas_of(*feature->GetGeometryRef());
+    areas.insert(areas.end(), more.begin(), more.end());
+  }
+  return areas;
 }
 
 }  // namespace thawslide::gis

@@ -2,22 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
-#include "gis/error_location.hpp"
-#include "gis/pits.hpp"
+#include "gis/case_inputs.hpp"
+#include "gis/dem_warnings.hpp"
+#include "gis/features.hpp"
+#include "gis/filters.hpp"
 #include "gis/polygons.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/resampling.hpp"
 #include "gis/roughness.hpp"
-#include "gis/smoothing.hpp"
-#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 
@@ -32,7 +32,7 @@ std::string system_of(const RasterFile& file, const std::string& given, std::vec
   add_warning(distortion_note(located, system, !given.empty()), warnings);
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
     warnings.push_back(fmt::format("note: {} is read as {}, as set by terrain.crs; the file specifies {}",
-                                   std::filesystem::path(file.file()).filename().string(), name_of(system),
+                                   name_of_file(file.file()), name_of(system),
                                    layout.crs.empty() ? "nothing" : name_of(layout.crs)));
   }
   return system;
@@ -41,18 +41,15 @@ std::string system_of(const RasterFile& file, const std::string& given, std::vec
 // Detects undeclared no-data values, which would act as pits.
 void check_elevations(const std::string& file, const Raster& raster) {
   constexpr double deepest = -11000.0, highest = 9000.0;  // m, on Earth
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      const double z = raster.at(column, row);
-      const bool is_elevation = z >= deepest && z <= highest && z != -9999.0;
-      if (!std::isnan(z) && !is_elevation) {
-        throw UserError(
-            "{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents missing data, "
-            "declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
-            file, coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z, shell_quote(file));
-      }
+  for_each_point(raster, [&](int column, int row, double z) {
+    const bool is_elevation = z >= deepest && z <= highest && z != -9999.0;
+    if (!std::isnan(z) && !is_elevation) {
+      throw UserError(
+          "{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents missing data, "
+          "declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
+          file, coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z, shell_quote(file));
     }
-  }
+  });
 }
 
 // Domain reduced by the grid cells that extend outside the DEM; empty if none remain.
@@ -202,7 +199,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
                      dem.raster.values.size(), dem.before_smoothing.values.size());
   }
   warnings.insert(warnings.end(), of_reading.begin(), of_reading.end());
-  const std::string name = std::filesystem::path(file.file()).filename().string();
+  const std::string name = name_of_file(file.file());
   if (terrain.resample > 0.0) {
     warnings.push_back(fmt::format("note: {} was resampled from points {:g} m x {:g} m apart to points {:g} m apart",
                                    name, file.layout().cell_x, file.layout().cell_y, terrain.resample));

@@ -87,4 +87,10 @@ std::string GdalMessages::after(const std::string& words) const {
   return "";
 }
 
+std::string released(char* text) {
+  const std::string copy = text == nullptr ? "" : text;
+  CPLFree(text);
+  return copy;
+}
+
 }  // namespace thawslide::gis

@@ -1,4 +1,5 @@
-// GDAL messages, collected instead of printed. Only for the sources of this module, because it includes GDAL.
+// GDAL messages, collected instead of printed, and texts. Only for the sources of this module, because it includes
+// GDAL.
 #pragma once
 
 #include <cpl_error.h>
@@ -29,5 +30,8 @@ class GdalMessages {
   std::vector<std::string> texts_;
   bool any_error_ = false;
 };
+
+// Copy of a text that GDAL has allocated, which is released; empty for null.
+[[nodiscard]] std::string released(char* text);
 
 }  // namespace thawslide::gis

@@ -6,7 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/raster.hpp"
 #include "gis/polygons.hpp"
 
 namespace thawslide::gis {
@@ -28,8 +27,5 @@ struct MapLayer {
 
 // `crs`: WKT; empty: unknown. Replaces an older file atomically.
 void write_geopackage(const std::string& file, const std::vector<MapLayer>& layers, const std::string& crs);
-
-// Areas with holes of the cells around points whose value is neither 0 nor NaN; cells that share an edge are joined.
-[[nodiscard]] Polygons areas_of_mask(const Raster& mask);
 
 }  // namespace thawslide::gis

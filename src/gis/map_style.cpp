@@ -1,11 +1,18 @@
 #include "gis/map_style.hpp"
 
+#include <cpl_string.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
 
 namespace thawslide::gis {
 
@@ -13,28 +20,7 @@ namespace {
 
 constexpr const char* opening = "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += letter;
-    }
-  }
-  return result;
-}
+std::string escaped(const std::string& text) { return released(CPLEscapeString(text.c_str(), -1, CPLES_XML)); }
 
 std::string option(const char* name, const std::string& value) {
   return fmt::format("        <Option type=\"QString\" name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
@@ -45,25 +31,24 @@ std::string rgba(const Color& color, double opacity) {
 }
 
 std::string symbol_layer(const VectorStyle& style) {
-  const std::string width = fmt::format("{:g}", style.width);
-  const std::string solid = rgba(style.color, 1.0);
+  const std::string width = fmt::format("{:g}", style.width), solid = rgba(style.color, 1.0);
+  const auto layer = [](const char* kind, const std::string& options) {
+    return fmt::format(
+        "      <layer class=\"{}\" enabled=\"1\" locked=\"0\" pass=\"0\">\n       <Option type=\"Map\">\n{}", kind,
+        options);
+  };
   switch (style.kind) {
     case LayerKind::polygons:
-      return "      <layer class=\"SimpleFill\" enabled=\"1\" locked=\"0\" pass=\"0\">\n       <Option "
-             "type=\"Map\">\n" +
-             option("color", rgba(style.color, style.opacity)) + option("outline_color", solid) +
-             option("outline_style", "solid") + option("outline_width", width) + option("outline_width_unit", "MM") +
-             option("style", "solid");
+      return layer("SimpleFill", option("color", rgba(style.color, style.opacity)) + option("outline_color", solid) +
+                                     option("outline_style", "solid") + option("outline_width", width) +
+                                     option("outline_width_unit", "MM") + option("style", "solid"));
     case LayerKind::lines:
-      return "      <layer class=\"SimpleLine\" enabled=\"1\" locked=\"0\" pass=\"0\">\n       <Option "
-             "type=\"Map\">\n" +
-             option("line_color", solid) + option("line_style", "solid") + option("line_width", width) +
-             option("line_width_unit", "MM");
+      return layer("SimpleLine", option("line_color", solid) + option("line_style", "solid") +
+                                     option("line_width", width) + option("line_width_unit", "MM"));
     case LayerKind::points:
-      return "      <layer class=\"SimpleMarker\" enabled=\"1\" locked=\"0\" pass=\"0\">\n       <Option "
-             "type=\"Map\">\n" +
-             option("color", solid) + option("name", "circle") + option("outline_color", "0,0,0,255") +
-             option("size", width) + option("size_unit", "MM");
+      return layer("SimpleMarker", option("color", solid) + option("name", "circle") +
+                                       option("outline_color", "0,0,0,255") + option("size", width) +
+                                       option("size_unit", "MM"));
   }
   return "";
 }
@@ -85,6 +70,58 @@ std::string labels(const std::string& attribute) {
       "   <text-style fieldName=\"{}\" isExpression=\"0\" fontSize=\"9\" textColor=\"0,0,0,255\"/>\n"
       "  </settings>\n </labeling>\n",
       escaped(attribute));
+}
+
+// Colour maps of Matplotlib and ColorBrewer in nine colours. Those of ColorBrewer begin above their lightest colour.
+using Palette = std::array<unsigned, 9>;  // 0xRRGGBB
+constexpr Palette yellow_orange_red{0xfff1a9, 0xfedf83, 0xfec15d, 0xfd9f44, 0xfd7435,
+                                    0xf43e26, 0xdb141e, 0xb60026, 0x800026};
+constexpr Palette viridis{0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
+constexpr Palette cividis{0x00224e, 0x1a386f, 0x434e6c, 0x61656f, 0x7d7c78, 0x9b9476, 0xbcae6c, 0xdec958, 0xfee838};
+constexpr Palette magma_reversed{0xfcfdbf, 0xfec287, 0xfb8761, 0xe55064, 0xb5367a,
+                                 0x812581, 0x4f127b, 0x1c1044, 0x000004};
+constexpr Palette plasma{0x0d0887, 0x4c02a1, 0x7e03a8, 0xaa2395, 0xcc4778, 0xe66c5c, 0xf89540, 0xfdc527, 0xf0f921};
+constexpr Palette yellow_green_blue{0xf1faba, 0xd3eeb3, 0x9cd8b8, 0x5fc1c0, 0x33a7c2,
+                                    0x1f82b9, 0x2355a4, 0x21318d, 0x081d58};
+constexpr Palette red_blue{0x67001f, 0xbb2a34, 0xe58368, 0xfbceb7, 0xf6f7f7, 0xc0dceb, 0x68abd0, 0x2870b1, 0x053061};
+constexpr Color light_yellow{255, 237, 160}, orange{254, 178, 76}, red{240, 59, 32}, dark_red{128, 0, 38};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Colour at a fraction of a palette, by linear interpolation.
+Color color_at(const Palette& palette, double fraction) {
+  const double position = fraction * static_cast<double>(palette.size() - 1);
+  const auto first = std::min(static_cast<std::size_t>(position), palette.size() - 2);
+  const double weight = position - static_cast<double>(first);
+  Color color{};
+  for (std::size_t k = 0; k < color.size(); ++k) {
+    const auto part = [&](unsigned whole) { return (whole >> (16 - 8 * k)) & 0xffU; };
+    color[k] = static_cast<std::uint8_t>(
+        std::lround((1.0 - weight) * part(palette[first]) + weight * part(palette[first + 1])));
+  }
+  return color;
+}
+
+// Classes between limits in the unit of the label, and beyond the last one.
+std::vector<ColorClass> classes_between(const std::vector<double>& limits, double unit_size, const Palette& palette) {
+  std::vector<ColorClass> classes;
+  const auto last = static_cast<double>(limits.size());
+  for (std::size_t k = 0; k <= limits.size(); ++k) {
+    classes.push_back(
+        {k < limits.size() ? limits[k] * unit_size : infinity, color_at(palette, static_cast<double>(k) / last)});
+  }
+  return classes;
+}
+
+RasterStyle positive(const std::vector<double>& limits, const char* unit, double unit_size, const Palette& palette) {
+  return {classes_between(limits, unit_size, palette), 0.0, unit, unit_size, true};
+}
+
+RasterStyle change_of_elevation() {
+  RasterStyle style{classes_between({-20, -10, -5, -2, -0.5, 0.5, 2, 5, 10, 20}, 1.0, red_blue), -infinity, "m", 1.0,
+                    false};
+  style.classes[style.classes.size() / 2].is_drawn = false;  // around 0
+  return style;
 }
 
 }  // namespace
@@ -130,6 +167,38 @@ std::string vector_style(const VectorStyle& style) {
       " </renderer-v2>\n{} <layerGeometryType>{}</layerGeometryType>\n</qgis>\n",
       opening, style.label.empty() ? 0 : 1, symbols[kind], symbol_layer(style),
       style.label.empty() ? "" : labels(style.label), geometries[kind]);
+}
+
+RasterStyle style_of_map(const std::string& name) {
+  const RasterStyle thickness = positive({0.5, 1, 2, 5, 10, 20, 50, 100}, "m", 1.0, yellow_orange_red);
+  const std::map<std::string, RasterStyle> styles{
+      {"release", thickness},
+      {"max_thickness", thickness},
+      {"final_thickness", thickness},
+      {"max_speed", positive({5, 10, 20, 30, 40, 60, 80, 100}, "m/s", 1.0, viridis)},
+      {"max_momentum_flux", positive({10, 100, 1e3, 1e4, 1e5}, "m3/s2", 1.0, viridis)},
+      {"max_pressure", positive({3, 10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, magma_reversed)},
+      {"max_pressure_time", {classes_between({5, 10, 20, 30, 60, 90, 120, 180}, 1.0, cividis), 0.0, "s", 1.0, false}},
+      {"arrival_time", {classes_between({5, 10, 20, 30, 60, 90, 120, 180}, 1.0, cividis), 0.0, "s", 1.0, false}},
+      {"elevation_change", change_of_elevation()},
+      {"max_basal_temperature",
+       {classes_between({-20, -10, -5, -1, 0, 20, 100, 300}, 1.0, plasma), -infinity, "°C", 1.0, false}},
+      {"max_melt", positive({1, 2, 5, 10, 20, 50, 100, 1000}, "mm", 1e-3, yellow_green_blue)},
+      {"max_pore_pressure", positive({10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, viridis)},
+  };
+  const auto found = styles.find(name);
+  THAWSLIDE_ASSERT(found != styles.end(), "no style of the map {}", name);
+  return found->second;
+}
+
+RasterStyle hazard_style_of_map(const std::string& name) {
+  if (name == "max_thickness") {
+    return {{{0.5, light_yellow}, {1.0, orange}, {2.0, red}, {infinity, dark_red}}, 0.0, "m", 1.0, true};
+  }
+  if (name == "max_pressure") {
+    return {{{3e3, light_yellow}, {30e3, orange}, {infinity, dark_red}}, 0.0, "kPa", 1e3, true};
+  }
+  return {};
 }
 
 }  // namespace thawslide::gis

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
 
@@ -142,13 +143,17 @@ Polygons polygons_of_rings(const std::vector<Polyline2>& rings) {
   return areas_of(*areas);
 }
 
-bool make_nested_rings_holes(Polygons& polygons) {
+std::vector<Polyline2> rings_of(const Polygons& polygons) {
   std::vector<Polyline2> rings;
   for (const Polygon& polygon : polygons) {
     rings.push_back(polygon.outline);
     rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
   }
-  Polygons areas = polygons_of_rings(rings);
+  return rings;
+}
+
+bool make_nested_rings_holes(Polygons& polygons) {
+  Polygons areas = polygons_of_rings(rings_of(polygons));
   const GdalMessages messages;
   const bool is_valid =
       std::all_of(areas.begin(), areas.end(), [](const Polygon& area) { return to_geometry(area).IsValid() != 0; });
@@ -182,6 +187,18 @@ Polygons intersection_of(const Polygons& first, const Polygons& second) {
   THAWSLIDE_ASSERT(geometry != nullptr, "no intersection of {} and {} polygons{}", first.size(), second.size(),
                    messages.remark());
   return areas_of(*geometry);
+}
+
+std::optional<Overlap> overlap_of(const Polygons& first, const Polygons& second, double tolerance) {
+  const Polygons both = intersection_of(first, second);
+  const double area = area_of(both), allowed = tolerance * std::min(area_of(first), area_of(second));
+  if (area <= allowed) {
+    return std::nullopt;
+  }
+  const Rectangle extent = extent_of(both);
+  return Overlap{area, allowed,
+                 fmt::format("{}, {}", coordinate_text(0.5 * (extent.min_x + extent.max_x)),
+                             coordinate_text(0.5 * (extent.min_y + extent.max_y)))};
 }
 
 }  // namespace thawslide::gis

@@ -1,6 +1,8 @@
 // Polygonal areas in the horizontal plane.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "config/site.hpp"
@@ -39,9 +41,20 @@ bool make_nested_rings_holes(Polygons& polygons);
 // in slivers.
 inline constexpr double overlap_tolerance = 1e-3;
 
+// Outlines and holes.
+[[nodiscard]] std::vector<Polyline2> rings_of(const Polygons& polygons);
+
 // Union: areas covered several times count once (GEOS).
 [[nodiscard]] Polygons union_of(const Polygons& polygons);
 // Area covered by both (GEOS).
 [[nodiscard]] Polygons intersection_of(const Polygons& first, const Polygons& second);
+
+struct Overlap {
+  double area = 0.0, allowed = 0.0;  // [m2]
+  std::string place;                 // coordinates of its middle: "1200, 300"
+};
+// Overlap of two areas if it exceeds a fraction of the smaller one.
+[[nodiscard]] std::optional<Overlap> overlap_of(const Polygons& first, const Polygons& second,
+                                                double tolerance = overlap_tolerance);
 
 }  // namespace thawslide::gis

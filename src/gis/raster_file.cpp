@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/unreadable_files.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
@@ -28,6 +30,50 @@ struct RasterFile::Handle {
 };
 
 namespace {
+
+constexpr std::size_t head_bytes = 4096;  // of a file, which include the header of an ASCII grid
+
+std::string head_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(head_bytes, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  return head;
+}
+
+// First value of an ASCII grid, after lines of a keyword and a number; empty if the text is no ASCII grid.
+std::string first_value(const std::string& head) {
+  std::istringstream words(lower_case(head));
+  std::string word, number;
+  bool is_grid = false;
+  while (words >> word) {
+    const bool is_keyword = std::isalpha(static_cast<unsigned char>(word.front())) != 0 && word.rfind("nan", 0) != 0;
+    if (!is_keyword) {
+      return is_grid ? word : "";
+    }
+    is_grid = is_grid || word == "ncols" || word == "nrows";
+    words >> number;
+  }
+  return "";
+}
+
+// Known cause for which GDAL cannot read a file, with its remedy; empty if there is none.
+std::string cause_of_unreadable_raster(const std::string& file) {
+  const std::string head = head_of(file);
+  if (head.rfind("\xEF\xBB\xBF", 0) == 0) {
+    return fmt::format(
+        "the file begins with a UTF-8 byte order mark, which an ASCII grid may not have. Remove it: sed -i "
+        "'1s/^\\xEF\\xBB\\xBF//' {}",
+        shell_quote(file));
+  }
+  if (first_value(head).rfind("nan", 0) == 0) {
+    return fmt::format(
+        "the first value of the ASCII grid is nan, which GDAL does not read there. Write the number of NODATA_value in "
+        "its place, for example -9999: sed -i 's/nan/-9999/gi' {}",
+        shell_quote(file));
+  }
+  return "";
+}
 
 [[noreturn]] void fail_open(const std::string& file, const GdalMessages& messages) {
   std::error_code ignored;

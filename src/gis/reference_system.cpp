@@ -1,7 +1,5 @@
 #include "gis/reference_system.hpp"
 
-#include <cpl_conv.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +12,8 @@
 #include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
-#include "gis/error_location.hpp"
+#include "gis/case_inputs.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/map_distortion.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
 
@@ -41,8 +38,7 @@ std::string wkt_from_reference(const OGRSpatialReference* reference) {
     const char* const options[] = {format, nullptr};
     char* text = nullptr;
     const OGRErr result = reference->exportToWkt(&text, options);
-    const std::string wkt = text == nullptr ? "" : text;
-    CPLFree(text);
+    const std::string wkt = released(text);
     if (result == OGRERR_NONE && !wkt.empty()) {
       return wkt;
     }
@@ -283,10 +279,9 @@ std::string distortion_note(const Located& raster, const std::string& wkt, bool 
         raster.file, name_of(wkt), format_scales(scales), 100.0 * most,
         warp_command(raster, source, longitude, latitude, 1.0 / std::sqrt(scales.smallest * scales.largest)));
   }
-  return scales.error() <= noticeable
-             ? ""
-             : fmt::format("note: lengths in the map projection of {}, {}, are {}",
-                           std::filesystem::path(raster.file).filename().string(), name_of(wkt), format_scales(scales));
+  return scales.error() <= noticeable ? ""
+                                      : fmt::format("note: lengths in the map projection of {}, {}, are {}",
+                                                    name_of_file(raster.file), name_of(wkt), format_scales(scales));
 }
 
 std::string height_system_of(const std::string& wkt) {
@@ -339,8 +334,7 @@ std::string location_warning(const Located& raster, const std::string& wkt) {
   return fmt::format(
       "the middle of {} would be at longitude {:.4g}, latitude {:.4g} in {}, which is for longitudes {:.4g} to {:.4g} "
       "and latitudes {:.4g} to {:.4g}: is it the right system? If not, set terrain.crs to the one the numbers are in",
-      std::filesystem::path(raster.file).filename().string(), longitude, latitude, name_of(wkt), west, east, south,
-      north);
+      name_of_file(raster.file), longitude, latitude, name_of(wkt), west, east, south, north);
 }
 
 }  // namespace thawslide::gis

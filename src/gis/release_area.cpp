@@ -5,15 +5,13 @@
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
-#include "gis/averaging.hpp"
+#include "gis/case_inputs.hpp"
 #include "gis/coverage.hpp"
-#include "gis/error_location.hpp"
-#include "gis/map_raster.hpp"
-#include "gis/named_polygons.hpp"
+#include "gis/features.hpp"
+#include "gis/filters.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
-#include "gis/taper.hpp"
 
 namespace thawslide::gis {
 
@@ -111,14 +109,12 @@ void warn_of_narrow(const std::string& body, const Raster& fraction, std::vector
 Rectangle extent_of_positive(const config::Body& body, const Raster& source, const std::string& crs) {
   const std::string& file = body.thickness.source;
   std::vector<double> x, y;
-  for (int row = 0; row < source.rows; ++row) {
-    for (int column = 0; column < source.columns; ++column) {
-      if (source.at(column, row) > 0.0) {
-        x.push_back(source.x_of(column));
-        y.push_back(source.y_of(row));
-      }
+  for_each_point(source, [&](int column, int row, double value) {
+    if (value > 0.0) {
+      x.push_back(source.x_of(column));
+      y.push_back(source.y_of(row));
     }
-  }
+  });
   if (x.empty()) {
     if (body.thickness.from == config::MapValue::From::raster) {
       throw UserError("{}: the thickness is not above 0 at any point: there is no release.", file);

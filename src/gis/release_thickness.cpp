@@ -4,14 +4,12 @@
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
-#include "gis/averaging.hpp"
+#include "gis/case_inputs.hpp"
 #include "gis/coverage.hpp"
-#include "gis/error_location.hpp"
-#include "gis/map_raster.hpp"
+#include "gis/features.hpp"
+#include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
-#include "gis/taper.hpp"
-#include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
 
@@ -68,13 +66,11 @@ class ThicknessMaker {
   // Calls work(column, row, value) for the points with a value.
   template <class Work>
   static void for_each_positive(Raster& raster, const Work& work) {
-    for (int row = 0; row < raster.rows; ++row) {
-      for (int column = 0; column < raster.columns; ++column) {
-        if (raster.at(column, row) > 0.0) {
-          work(column, row, raster.values[raster.index(column, row)]);
-        }
+    for_each_point(raster, [&](int column, int row, double& value) {
+      if (value > 0.0) {
+        work(column, row, value);
       }
-    }
+    });
   }
 
   // `spread`: method that distributed the release to its points.
@@ -263,15 +259,12 @@ class ThicknessMaker {
   // `share`: at the same points, those that count; null: all of them.
   void require_not_negative(const Raster& raster, const Raster* fraction, const char* key,
                             const std::string& file) const {
-    for (int row = 0; row < raster.rows; ++row) {
-      for (int column = 0; column < raster.columns; ++column) {
-        if (raster.at(column, row) < 0.0 && (fraction == nullptr || fraction->at(column, row) > 0.0)) {
-          fail(key, fmt::format("{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", file,
-                                coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)),
-                                raster.at(column, row)));
-        }
+    for_each_point(raster, [&](int column, int row, double value) {
+      if (value < 0.0 && (fraction == nullptr || fraction->at(column, row) > 0.0)) {
+        fail(key, fmt::format("{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", file,
+                              coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), value));
       }
-    }
+    });
   }
 
   const config::Case& case_;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
-#include "gis/axis_weights.hpp"
+#include "base/parallel.hpp"
 
 namespace thawslide::gis {
 
@@ -42,23 +43,16 @@ AxisWeights mean(double coordinate, double width, int count) {
   return result;
 }
 
-struct Axis {
-  double first, cell;
-  int count;
-};
+bool is_mean(double width) { return width > 1.0 + 1e-9; }
 
-bool is_mean(double old_cell, double new_cell) { return new_cell > old_cell * (1.0 + 1e-9); }
-
-std::vector<AxisWeights> weights_of(const Axis& old_axis, const Axis& new_axis) {
+// Weights of the old points for each new one along an axis, which is given by its first point, spacing and number.
+std::vector<AxisWeights> weights_along(double first, double cell, int count, double new_first, double new_cell,
+                                       int new_count, const WeightsOfPoint& weights_of) {
   std::vector<AxisWeights> all;
-  for (int k = 0; k < new_axis.count; ++k) {
-    const double coordinate = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
-    const bool averaged = is_mean(old_axis.cell, new_axis.cell);
-    all.push_back(averaged ? mean(coordinate, new_axis.cell / old_axis.cell, old_axis.count)
-                           : interpolation(coordinate, old_axis.count));
-    const AxisWeights& made = all.back();
-    THAWSLIDE_ASSERT(made.first + static_cast<int>(made.weights.size()) <= old_axis.count,
-                     "point {} needs old points from {} of {}", k, made.first, old_axis.count);
+  for (int k = 0; k < new_count; ++k) {
+    all.push_back(weights_of((new_first + k * new_cell - first) / cell, new_cell / cell, count));
+    THAWSLIDE_ASSERT(all.back().first + static_cast<int>(all.back().weights.size()) <= count,
+                     "point {} needs old points from {} of {}", k, all.back().first, count);
   }
   return all;
 }
@@ -67,7 +61,7 @@ std::vector<AxisWeights> weights_of(const Axis& old_axis, const Axis& new_axis) 
 
 Raster resampled_layout(const Raster& layout, double distance) {
   const auto along = [&](double first, double cell, int count, double& new_first, int& new_count) {
-    const double margin = is_mean(cell, distance) ? 0.5 * distance : 0.0;
+    const double margin = is_mean(distance / cell) ? 0.5 * distance : 0.0;
     const double available = (count - 1) * cell - 2.0 * margin;
     new_first = first + margin;
     new_count = available < 0.0 ? 0 : static_cast<int>(std::floor(available / distance + 1e-9)) + 1;
@@ -85,13 +79,61 @@ Rectangle needed_for(const Raster& new_layout) {
                                                                                                0.5 * new_layout.cell_y);
 }
 
+WeightedSums weighted_sums(const Raster& raster, const Raster& layout, const WeightsOfPoint& weights_of) {
+  const std::vector<AxisWeights> along_x =
+      weights_along(raster.x, raster.cell_x, raster.columns, layout.x, layout.cell_x, layout.columns, weights_of);
+  const std::vector<AxisWeights> along_y =
+      weights_along(raster.y, raster.cell_y, raster.rows, layout.y, layout.cell_y, layout.rows, weights_of);
+  const std::size_t columns = along_x.size();
+  std::vector<double> row_values(columns * static_cast<std::size_t>(raster.rows));
+  std::vector<double> row_weights = row_values;
+  parallel_for(static_cast<std::size_t>(raster.rows), [&](std::size_t row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const AxisWeights& made = along_x[column];
+      const double* old = raster.values.data() + raster.index(made.first, static_cast<int>(row));
+      double value = 0.0, weight = 0.0;
+      for (std::size_t k = 0; k < made.weights.size(); ++k) {
+        if (!std::isnan(old[k])) {
+          value += made.weights[k] * old[k];
+          weight += made.weights[k];
+        }
+      }
+      row_values[row * columns + column] = value;
+      row_weights[row * columns + column] = weight;
+    }
+  });
+  WeightedSums sums{layout.filled(0.0), layout.filled(0.0)};
+  parallel_for(along_y.size(), [&](std::size_t row) {
+    const AxisWeights& made = along_y[row];
+    for (std::size_t column = 0; column < columns; ++column) {
+      double value = 0.0, weight = 0.0;
+      for (std::size_t k = 0; k < made.weights.size(); ++k) {
+        const std::size_t from = (static_cast<std::size_t>(made.first) + k) * columns + column;
+        value += made.weights[k] * row_values[from];
+        weight += made.weights[k] * row_weights[from];
+      }
+      sums.values.values[row * columns + column] = value;
+      sums.weights.values[row * columns + column] = weight;
+    }
+  });
+  return sums;
+}
+
+Raster means_of(WeightedSums sums, double least) {
+  Raster& result = sums.values;
+  for (std::size_t k = 0; k < result.values.size(); ++k) {
+    const double weight = sums.weights.values[k];
+    result.values[k] = weight > least ? result.values[k] / weight : std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::move(result);
+}
+
 Raster resampled(const Raster& raster, const Raster& new_layout) {
-  const auto along_x =
-      weights_of({raster.x, raster.cell_x, raster.columns}, {new_layout.x, new_layout.cell_x, new_layout.columns});
-  const auto along_y =
-      weights_of({raster.y, raster.cell_y, raster.rows}, {new_layout.y, new_layout.cell_y, new_layout.rows});
-  const bool is_averaged = is_mean(raster.cell_x, new_layout.cell_x) || is_mean(raster.cell_y, new_layout.cell_y);
-  return means_of(weighted_sums(raster, along_x, along_y, new_layout), is_averaged ? 0.5 : 1.0 - 1e-9);
+  const WeightedSums sums = weighted_sums(raster, new_layout, [](double coordinate, double width, int count) {
+    return is_mean(width) ? mean(coordinate, width, count) : interpolation(coordinate, count);
+  });
+  const bool is_averaged = is_mean(new_layout.cell_x / raster.cell_x) || is_mean(new_layout.cell_y / raster.cell_y);
+  return means_of(sums, is_averaged ? 0.5 : 1.0 - 1e-9);
 }
 
 }  // namespace thawslide::gis

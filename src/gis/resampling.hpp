@@ -6,10 +6,31 @@
 // interval of the new spacing, centred on each. Both reproduce a plane exactly.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "base/raster.hpp"
 #include "gis/rectangle.hpp"
 
 namespace thawslide::gis {
+
+// Weights of the old points first, first + 1, ... for a new one along an axis.
+struct AxisWeights {
+  int first = 0;
+  std::vector<double> weights;
+};
+
+// For a new point at a position, and with a cell width, in units of the old spacing; count: number of old points.
+using WeightsOfPoint = std::function<AxisWeights(double coordinate, double width, int count)>;
+
+// Sums at each point of a layout, over old points with data: of weights times values, and of weights.
+struct WeightedSums {
+  Raster values, weights;
+};
+[[nodiscard]] WeightedSums weighted_sums(const Raster& raster, const Raster& layout, const WeightsOfPoint& weights_of);
+
+// Value over weight if the weight exceeds `least`; otherwise NaN.
+[[nodiscard]] Raster means_of(WeightedSums sums, double least);
 
 // Points `distance` metres apart that fit in a whole raster: from its first point if they are interpolated, from half a
 // distance beyond it if they are means. No columns or rows if none fit.

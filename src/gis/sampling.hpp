@@ -1,7 +1,15 @@
-// Sampling of rasters at the points of another one, and gradients.
+// Sampling of rasters at the points of another one, means over their cells, and gradients.
+//
+// A value v_k of a raster applies to its whole cell; A_k is the area that this cell shares with the cell of a new
+// point:
+//    mean = sum v_k A_k / sum A_k
+// The sum of mean times area over the new cells therefore equals that of the raster (a volume, if the values are
+// thicknesses). Within one reference system the areas are exact. For another system, the cell of a new point is divided
+// into parts smaller than the raster's cells. Each part has the value of the cell that contains its centre.
 #pragma once
 
 #include "base/raster_sampling.hpp"
+#include "gis/polygons.hpp"
 
 namespace thawslide::gis {
 
@@ -12,10 +20,37 @@ struct Gradient {
 [[nodiscard]] Gradient gradient_at(const Raster& raster, int column, int row);
 
 // Samples a raster of any reference system at the points of a layout. Values are bilinear between its points, or the
-// mean over the cell around a point if its own points are closer together (averaging.hpp).
+// mean over the cell around a point if its own points are closer together.
 [[nodiscard]] Raster sampled(const Raster& raster, const Raster& layout, Missing missing);
+
+// Value of the nearest point at each point of a layout; NaN outside the cells of the raster.
+[[nodiscard]] Raster nearest(const Raster& raster, const Raster& layout);
 
 // Heights of a surface above the ground at its own points; NaN without a ground.
 [[nodiscard]] Raster above_ground(const Raster& surface, const Raster& ground);
+
+// True if the points of a raster are closer together than those of a layout along any axis, by more than a hundredth.
+// For a wider spacing, bilinear interpolation conserves the volume.
+[[nodiscard]] bool is_finer(const Raster& raster, const Raster& layout);
+
+// Means of a finer raster at the points of a layout. No-data points count as 0 if missing is zero. Otherwise the mean
+// is that of the remaining area, and NaN if none remains, or if missing is unknown and less than half of the cell
+// remains.
+[[nodiscard]] Raster averaged(const Raster& raster, const Raster& layout, Missing missing);
+
+// Part of a raster that polygons cover.
+struct CoveredRaster {
+  Raster values;    // around the polygons; without points if the raster does not reach them
+  Raster fraction;  // covered fraction of each of its cells
+};
+// `crs`: of the polygons, as WKT.
+[[nodiscard]] CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs);
+
+// Means of a finer raster within polygons, at the points of a layout.
+struct CoveredMeans {
+  Raster amount;  // sum v_k A_k over the area of the point's cell, A_k: covered by polygons; 0 for no data
+  Raster mean;    // over the covered area; NaN for no data
+};
+[[nodiscard]] CoveredMeans averaged(const CoveredRaster& part, const Raster& layout);
 
 }  // namespace thawslide::gis

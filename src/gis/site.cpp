@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "gis/bed.hpp"
+#include "gis/case_inputs.hpp"
 #include "gis/dem.hpp"
-#include "gis/error_location.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
@@ -55,14 +55,11 @@ Raster without_cut_bodies(const config::Case& parameters, const std::map<std::st
     }
     const Raster& thickness = release.thickness;
     const PointWindow window = points_of(thickness, ground);
-    for (int row = 0; row < thickness.rows; ++row) {
-      for (int column = 0; column < thickness.columns; ++column) {
-        const double cut = thickness.at(column, row);
-        if (cut > 0.0) {
-          ground.values[ground.index(window.first_column + column, window.first_row + row)] -= cut;
-        }
+    for_each_point(thickness, [&](int column, int row, double cut) {
+      if (cut > 0.0) {
+        ground.values[ground.index(window.first_column + column, window.first_row + row)] -= cut;
       }
-    }
+    });
   }
   return ground;
 }

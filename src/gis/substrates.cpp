@@ -5,11 +5,16 @@
 #include <memory>
 #include <set>
 
+#include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "gis/code_raster.hpp"
-#include "gis/error_location.hpp"
-#include "gis/geopackage.hpp"
-#include "gis/named_polygons.hpp"
+#include "base/text.hpp"
+#include "gis/case_inputs.hpp"
+#include "gis/coverage.hpp"
+#include "gis/features.hpp"
+#include "gis/point_window.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/reprojection.hpp"
+#include "gis/sampling.hpp"
 
 namespace thawslide::gis {
 
@@ -40,11 +45,104 @@ config::SubstrateArea area_of_outline(const config::Case& parameters, const std:
   inside = part_in_domain(parameters, request, polygons);
   config::SubstrateArea area;
   area.area = area_of(inside);
-  for (const Polygon& polygon : polygons) {
-    area.rings.push_back(polygon.outline);
-    area.rings.insert(area.rings.end(), polygon.holes.begin(), polygon.holes.end());
-  }
+  area.rings = rings_of(polygons);
   return area;
+}
+
+// Points of a raster of codes in the domain with one code, or with all.
+struct CodePoints {
+  long count = 0;
+  Rectangle extent;
+
+  void add(double x, double y) {
+    if (count++ == 0) {
+      extent = {x, y, x, y};
+    }
+    extent.include(x, y);
+  }
+  [[nodiscard]] std::string text(const CodePoints& all) const {
+    return fmt::format("{:.2g} % of the domain, {}",
+                       100.0 * static_cast<double>(count) / static_cast<double>(all.count), format_range(extent));
+  }
+};
+
+struct CodesFound {
+  std::map<double, CodePoints> by_code;
+  CodePoints without, all;
+};
+
+CodesFound codes_in(const Rectangle& area, const Raster& codes) {
+  CodesFound found;
+  for_each_point(codes, [&](int column, int row, double code) {
+    const double x = codes.x_of(column), y = codes.y_of(row);
+    if (area.contains(x, y)) {
+      found.all.add(x, y);
+      (std::isnan(code) ? found.without : found.by_code[code]).add(x, y);
+    }
+  });
+  return found;
+}
+
+// Removes round-off of codes that are stored with a scale.
+void make_whole(const std::string& file, Raster& codes) {
+  constexpr double round_off = 1e-9;
+  for_each_point(codes, [&](int column, int row, double& code) {
+    const double whole = std::round(code);
+    if (std::abs(code - whole) <= round_off * std::max(1.0, std::abs(code))) {
+      code = whole;
+    } else if (!std::isnan(code)) {
+      throw UserError(
+          "{}: the raster holds {:g} at {}, {}; allowed: whole numbers, the codes of substrates. Check that it is the "
+          "right file.",
+          file, code, coordinate_text(codes.x_of(column)), coordinate_text(codes.y_of(row)));
+    }
+  });
+}
+
+// Codes of a file in the ground's coordinates, around the domain; NaN: none. A raster in another reference system is
+// sampled at the ground's points by nearest neighbour.
+Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file, const Raster& ground,
+                  std::vector<std::string>& warnings) {
+  Raster codes =
+      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, warnings);
+  return with_error_location(parameters, key, [&] {
+    make_whole(file, codes);
+    if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
+      return codes;
+    }
+    warnings.push_back(fmt::format("note: the codes of {}, which is in {}, were resampled to the points of the DEM",
+                                   name_of_file(file), name_of(codes.crs)));
+    return nearest(codes, ground);
+  });
+}
+
+// Warnings about unnamed codes in the domain, and about parts of it without a code.
+void add_code_warnings(const config::Case& parameters, const std::string& file, const Raster& codes,
+                       std::vector<std::string>& warnings) {
+  std::set<double> named;
+  for (const auto& [name, substrate] : parameters.substrates) {
+    if (substrate.raster == file) {
+      named.insert(substrate.code);
+    }
+  }
+  const Rectangle domain = domain_of(parameters);
+  const CodesFound found = codes_in(domain, codes);
+  const std::string name = name_of_file(file);
+  for (const auto& [code, points] : found.by_code) {
+    if (named.count(code) == 0) {
+      warnings.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] applies there", code,
+                                     name, points.text(found.all)));
+    }
+  }
+  if (found.without.count > 0) {
+    warnings.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] applies there", name,
+                                   found.without.count, found.without.text(found.all)));
+  }
+  const Rectangle covered = span_of_points(codes).widened(0.5 * codes.cell_x, 0.5 * codes.cell_y);
+  if (const std::string beyond = describe_overhang(domain, covered); !beyond.empty()) {
+    warnings.push_back(fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] applies there",
+                                   name, beyond));
+  }
 }
 
 config::SubstrateArea area_of_code(const config::Case& parameters, const std::string& name,
@@ -56,8 +154,12 @@ config::SubstrateArea area_of_code(const config::Case& parameters, const std::st
   const CodesFound found = codes_in(domain_of(parameters), *codes);
   const auto own = found.by_code.find(substrate.code);
   if (own == found.by_code.end()) {
+    std::vector<std::string> codes_there;
+    for (const auto& [code, points] : found.by_code) {
+      codes_there.push_back(fmt::format("{:g}", code));
+    }
     fail_at(parameters, substrate_key(name, "code"), "{}: the code {} stands nowhere in the domain; found there: {}.",
-            substrate.raster, substrate.code, format_codes(found));
+            substrate.raster, substrate.code, codes_there.empty() ? "none" : joined_by_and(codes_there));
   }
   area.area = static_cast<double>(own->second.count) * codes->cell_x * codes->cell_y;
   return area;
@@ -80,18 +182,13 @@ Polygons polygons_of(const config::Case& parameters, const std::string& name, co
 
 void check_overlap(const config::Case& parameters, const std::string& first, const std::string& second,
                    const Polygons& one, const Polygons& other) {
-  const Polygons both = intersection_of(one, other);
-  const double shared = area_of(both), allowed = overlap_tolerance * std::min(area_of(one), area_of(other));
-  if (shared <= allowed) {
-    return;
+  if (const auto shared = overlap_of(one, other)) {
+    fail_at(parameters, area_key(second, parameters.substrates.at(second)),
+            "the substrates {} and {} overlap by {} m2 about {}; a place has one substrate. Allowed: slivers up to {} "
+            "m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).",
+            first, second, rounded_text(shared->area, 3), shared->place, rounded_text(shared->allowed, 3),
+            100.0 * overlap_tolerance);
   }
-  const Rectangle extent = extent_of(both);
-  fail_at(parameters, area_key(second, parameters.substrates.at(second)),
-
-          "the substrates {} and {} overlap by {} m2 about {}, {}; a place has one substrate. Allowed: slivers up to "
-          "{} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).",
-          first, second, rounded_text(shared, 3), coordinate_text(0.5 * (extent.min_x + extent.max_x)),
-          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3), 100.0 * overlap_tolerance);
 }
 
 // Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those
@@ -133,14 +230,7 @@ Areas load_substrates(const config::Case& parameters, const Dem& ground, std::ve
   }
   check_overlaps(parameters, areas, std::move(polygons));
   for (const auto& [file, codes] : rasters) {
-    std::set<double> named;
-    for (const auto& [name, substrate] : parameters.substrates) {
-      if (substrate.raster == file) {
-        named.insert(substrate.code);
-      }
-    }
-    const std::vector<std::string> more = warnings_of_codes(domain_of(parameters), file, *codes, named);
-    warnings.insert(warnings.end(), more.begin(), more.end());
+    add_code_warnings(parameters, file, *codes, warnings);
   }
   return areas;
 }

@@ -7,7 +7,7 @@
 
 #include "base/nearest_known.hpp"
 #include "base/rounding.hpp"
-#include "gis/error_location.hpp"
+#include "gis/case_inputs.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_thickness.hpp"
@@ -82,22 +82,19 @@ Raster widened_layout(const config::Case& parameters, const std::string& name, c
   const double reach = 0.5 * parameters.grid.cell / parameters.bodies.at(name).particles_per_axis;
   const int columns = 2 + static_cast<int>(std::ceil(reach / thickness.cell_x));
   const int rows = 2 + static_cast<int>(std::ceil(reach / thickness.cell_y));
-  Raster layout = layout_of(thickness, {-columns, -rows, thickness.columns + 2 * columns, thickness.rows + 2 * rows});
-  layout.values.assign(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows), 0.0);
-  return layout;
+  const Raster layout =
+      layout_of(thickness, {-columns, -rows, thickness.columns + 2 * columns, thickness.rows + 2 * rows});
+  return layout.filled(0.0);
 }
 
 // t_b / w_b; outside the body, that of the nearest point.
 Raster thickness_within(const LoadedRelease& loaded, const Raster& layout) {
   const ByIndicesOf thickness(layout, loaded.release.thickness), spread(layout, loaded.spread);
   Raster within = layout;
-  for (int row = 0; row < layout.rows; ++row) {
-    for (int column = 0; column < layout.columns; ++column) {
-      const double fraction = spread.at(column, row);
-      within.values[within.index(column, row)] =
-          fraction > 0.0 ? thickness.at(column, row) / fraction : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
+  for_each_point(within, [&](int column, int row, double& value) {
+    const double fraction = spread.at(column, row);
+    value = fraction > 0.0 ? thickness.at(column, row) / fraction : std::numeric_limits<double>::quiet_NaN();
+  });
   fill_from_nearest_known(within);
   return within;
 }
@@ -147,21 +144,14 @@ void join(const config::Case& parameters, const std::string& name, const Release
 void check_overlaps(const config::Case& parameters, const Releases& releases) {
   for (auto second = releases.begin(); second != releases.end(); ++second) {
     for (auto first = releases.begin(); first != second; ++first) {
-      const Polygons& one = first->second.polygons;
-      const Polygons& other = second->second.polygons;
-      const Polygons both = intersection_of(one, other);
-      const double shared = area_of(both), allowed = overlap_tolerance * std::min(area_of(one), area_of(other));
-      if (shared <= allowed) {
-        continue;
+      if (const auto shared = overlap_of(first->second.polygons, second->second.polygons)) {
+        fail_at(parameters, area_key(parameters, second->first),
+                "the bodies '{}' and '{}' overlap by {} m2 about {}; allowed: bodies that touch or lie apart, but for "
+                "slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > "
+                "Difference).",
+                first->first, second->first, rounded_text(shared->area, 3), shared->place,
+                rounded_text(shared->allowed, 3), 100.0 * overlap_tolerance);
       }
-      const Rectangle extent = extent_of(both);
-      fail_at(
-          parameters, area_key(parameters, second->first),
-          "the bodies '{}' and '{}' overlap by {} m2 about {}, {}; allowed: bodies that touch or lie apart, but for "
-          "slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > "
-          "Difference).",
-          first->first, second->first, rounded_text(shared, 3), coordinate_text(0.5 * (extent.min_x + extent.max_x)),
-          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3), 100.0 * overlap_tolerance);
     }
   }
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string_view>
 
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 
 namespace thawslide::gis {
@@ -119,7 +119,7 @@ UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, 
   UnitConversion conversion{found.factor, found.offset, ""};
   if (found.factor != 1.0 || found.offset != 0.0) {
     conversion.warning = fmt::format("note: {} states the unit '{}': its values were converted to {}",
-                                     std::filesystem::path(stated.file).filename().string(), config::shown(unit), own);
+                                     name_of_file(stated.file), config::shown(unit), own);
   }
   return conversion;
 }

@@ -1,28 +1,26 @@
 #include "gis/vector_file.hpp"
 
+#include <cpl_string.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
-#include <set>
 
+#include "base/composition.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
+#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
 #include "gis/data_set.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
-#include "gis/polygon_checks.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/text_encoding.hpp"
-#include "gis/unreadable_files.hpp"
 
 namespace thawslide::gis {
 
@@ -35,30 +33,81 @@ const char* name_of_kind(Kind kind) {
 }
 
 bool is_of_kind(OGRwkbGeometryType type, Kind kind) {
-  switch (wkbFlatten(type)) {
-    case wkbPolygon:
-    case wkbMultiPolygon:
-    case wkbCurvePolygon:
-    case wkbMultiSurface:
-      return kind == Kind::polygons;
-    case wkbLineString:
-    case wkbMultiLineString:
-    case wkbCompoundCurve:
-    case wkbCircularString:
-    case wkbMultiCurve:
-      return kind == Kind::lines;
-    case wkbPoint:
-    case wkbMultiPoint:
-      return kind == Kind::points;
-    default:
-      return false;
-  }
+  constexpr OGRwkbGeometryType one[] = {wkbCurvePolygon, wkbCurve, wkbPoint};
+  constexpr OGRwkbGeometryType several[] = {wkbMultiSurface, wkbMultiCurve, wkbMultiPoint};
+  const auto k = static_cast<std::size_t>(kind);
+  return OGR_GT_IsSubClassOf(type, one[k]) != 0 || OGR_GT_IsSubClassOf(type, several[k]) != 0;
 }
 
-// Names within a file may contain characters that control a terminal.
-std::vector<std::string> all_shown(std::vector<std::string> names) {
-  std::transform(names.begin(), names.end(), names.begin(), config::shown);
-  return names;
+// True for a Shapefile without a .cpg file whose .dbf file states the code page "ANSI", which means little, or none.
+bool has_unknown_encoding(GDALDataset& dataset) {
+  constexpr const char* domain = "SHAPEFILE";
+  if (std::string(dataset.GetDriverName()) != "ESRI Shapefile" || dataset.GetLayerCount() != 1) {
+    return false;
+  }
+  OGRLayer& layer = *dataset.GetLayer(0);
+  const char* const page = layer.GetMetadataItem("LDID_VALUE", domain);
+  constexpr int ansi = 0x57;
+  const int number = page == nullptr ? 0 : std::atoi(page);
+  return layer.GetMetadataItem("CPG_VALUE", domain) == nullptr && (number == 0 || number == ansi);
+}
+
+// A text that is not UTF-8 is read as Windows-1252, which includes the letters of Latin-1. Letters are composed.
+std::string as_utf8(const std::string& text) {
+  return CPLIsUTF8(text.c_str(), -1) != 0 ? composed(text) : released(CPLRecode(text.c_str(), "CP1252", CPL_ENC_UTF8));
+}
+
+// Known cause for which GDAL cannot open a file, with its remedy; empty if there is none.
+std::string cause_of_unreadable_vector(const std::string& file) {
+  const std::filesystem::path path(file);
+  if (lower_case(path.extension().string()) != ".shp") {
+    return "";
+  }
+  std::error_code ignored;
+  for (const char* ending : {".shx", ".SHX"}) {
+    if (std::filesystem::exists(std::filesystem::path(path).replace_extension(ending), ignored)) {
+      return "";
+    }
+  }
+  return fmt::format(
+      "the index of the Shapefile, {}, is missing. Copy the .shx, .dbf and .prj file next to it, or restore the index: "
+      "ogrinfo --config SHAPE_RESTORE_SHX YES {}",
+      std::filesystem::path(path).replace_extension(".shx").filename().string(), shell_quote(file));
+}
+
+// A ring needs three corners that are not collinear.
+bool has_area(const OGRPolygon& polygon) {
+  if (polygon.getExteriorRing()->getNumPoints() < 4) {
+    return false;
+  }
+  const std::unique_ptr<OGRGeometry> hull(polygon.ConvexHull());
+  return hull != nullptr && wkbFlatten(hull->getGeometryType()) == wkbPolygon && hull->toPolygon()->get_Area() > 0.0;
+}
+
+// Throws UserError for a polygon without an area, and for one that intersects itself, with the location.
+void check_polygons(const VectorLayer& layer) {
+  for (const Feature& feature : layer.features) {
+    for (const Polygon& polygon : feature.polygons) {
+      const GdalMessages messages;
+      const OGRPolygon geometry = to_geometry(polygon);
+      if (!has_area(geometry)) {
+        throw UserError("{}: {} has no area. Delete it, or draw its outline.", layer.file, feature.title);
+      }
+      if (geometry.IsValid()) {
+        continue;
+      }
+      const std::string crossing = messages.after("Self-intersection at or near point ");
+      if (!crossing.empty()) {
+        throw UserError(
+            "{}: {} crosses itself at or near {}. Correct its outline there (QGIS: Vector > Geometry Tools > Check "
+            "Validity).",
+            layer.file, feature.title, crossing);
+      }
+      throw UserError(
+          "{}: {} is not a valid polygon{}. Correct its outline (QGIS: Vector > Geometry Tools > Check Validity).",
+          layer.file, feature.title, messages.remark());
+    }
+  }
 }
 
 GDALDatasetUniquePtr open_vector(const std::string& file, const std::string& readable, Kind kind) {
@@ -210,7 +259,7 @@ class LayerReader {
     read_geometry(*geometry, feature);
     if (make_nested_rings_holes(feature.polygons)) {
       result_.warnings.push_back(fmt::format("note: {}: {} has rings within others, which are holes",
-                                             std::filesystem::path(result_.file).filename().string(), feature.title));
+                                             name_of_file(result_.file), feature.title));
     }
     for (int index = 0; index < source.GetFieldCount(); ++index) {
       if (!source.IsFieldSetAndNotNull(index)) {
@@ -246,46 +295,29 @@ class LayerReader {
     if (geometry.IsEmpty()) {
       return;  // a part; a feature has others
     }
-    switch (wkbFlatten(geometry.getGeometryType())) {
-      case wkbPolygon:
-        if (kind_ == Kind::polygons) {
-          Polygon polygon = from_geometry(*geometry.toPolygon());
-          reproject(polygon.outline, feature.title);
-          for (Polyline2& hole : polygon.holes) {
-            reproject(hole, feature.title);
-          }
-          feature.polygons.push_back(std::move(polygon));
-          return;
-        }
-        break;
-      case wkbLineString:
-        if (kind_ == Kind::lines) {
-          feature.lines.push_back(from_geometry(*geometry.toLineString()));
-          reproject(feature.lines.back(), feature.title);
-          return;
-        }
-        break;
-      case wkbPoint:
-        if (kind_ == Kind::points) {
-          Polyline2 point{{geometry.toPoint()->getX(), geometry.toPoint()->getY()}};
-          reproject(point, feature.title);
-          feature.points.push_back(point.front());
-          return;
-        }
-        break;
-      case wkbMultiPolygon:
-      case wkbMultiLineString:
-      case wkbMultiPoint:
-      case wkbGeometryCollection:
-        for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
-          read_geometry(*part, feature);
-        }
-        return;
-      default:
-        break;
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
+      for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
+        read_geometry(*part, feature);
+      }
+    } else if (kind_ == Kind::polygons && type == wkbPolygon) {
+      Polygon polygon = from_geometry(*geometry.toPolygon());
+      reproject(polygon.outline, feature.title);
+      for (Polyline2& hole : polygon.holes) {
+        reproject(hole, feature.title);
+      }
+      feature.polygons.push_back(std::move(polygon));
+    } else if (kind_ == Kind::lines && type == wkbLineString) {
+      feature.lines.push_back(from_geometry(*geometry.toLineString()));
+      reproject(feature.lines.back(), feature.title);
+    } else if (kind_ == Kind::points && type == wkbPoint) {
+      Polyline2 point{{geometry.toPoint()->getX(), geometry.toPoint()->getY()}};
+      reproject(point, feature.title);
+      feature.points.push_back(point.front());
+    } else {
+      throw UserError("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title, geometry.getGeometryName(),
+                      name_of_kind(kind_));
     }
-    throw UserError("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title, geometry.getGeometryName(),
-                    name_of_kind(kind_));
   }
 
   void reproject(Polyline2& line, const std::string& title) {
@@ -334,61 +366,6 @@ VectorLayer read_lines(const std::string& file, const std::string& crs) {
 
 VectorLayer read_points(const std::string& file, const std::string& crs) {
   return LayerReader(file, crs, Kind::points).read();
-}
-
-std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key) {
-  if (std::count(layer.attributes.begin(), layer.attributes.end(), name) == 1) {
-    return name;
-  }
-  std::vector<std::string> alike;
-  std::copy_if(layer.attributes.begin(), layer.attributes.end(), std::back_inserter(alike),
-               [&](const std::string& attribute) { return lower_case(attribute) == lower_case(name); });
-  if (alike.size() > 1) {
-    throw UserError(
-        "{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or one of exactly this "
-        "name. Write the name as the file does, or rename the others.",
-        layer.file, name, key, config::comma_list(all_shown(alike)));
-  }
-  if (alike.size() == 1) {
-    return alike.front();
-  }
-  const std::vector<std::string> there = all_shown(layer.attributes);
-  const std::string hint = config::did_you_mean(name, there);
-  throw UserError("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name, key,
-                  there.empty() ? "none" : config::comma_list(there),
-                  hint.empty() ? ". Correct the name, or add the attribute." : hint);
-}
-
-std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,
-                                    const std::string& name_attribute) {
-  if (names.empty()) {
-    return layer.features;
-  }
-  const std::string attribute = attribute_named(layer, name_attribute, "name_attribute");
-  std::vector<std::string> all;
-  std::vector<Feature> chosen;
-  std::set<std::string> found;
-  for (const Feature& feature : layer.features) {
-    const auto text = feature.texts.find(attribute);
-    if (text == feature.texts.end()) {
-      continue;
-    }
-    if (std::find(all.begin(), all.end(), text->second) == all.end()) {
-      all.push_back(text->second);
-    }
-    if (std::find(names.begin(), names.end(), text->second) != names.end()) {
-      chosen.push_back(feature);
-      found.insert(text->second);
-    }
-  }
-  const std::vector<std::string> there = all_shown(all);
-  for (const std::string& name : names) {
-    if (found.count(name) == 0) {
-      throw UserError("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file, config::shown(attribute), name,
-                      there.empty() ? "none" : config::comma_list(there), config::did_you_mean(name, there));
-    }
-  }
-  return chosen;
 }
 
 }  // namespace thawslide::gis

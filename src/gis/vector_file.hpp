@@ -37,12 +37,4 @@ struct VectorLayer {
 [[nodiscard]] VectorLayer read_lines(const std::string& file, const std::string& crs);
 [[nodiscard]] VectorLayer read_points(const std::string& file, const std::string& crs);
 
-// Spelling of an attribute's name in the file: the same name, otherwise one that differs only in letter case. Throws
-// UserError for none and for several. `key`: for the message.
-[[nodiscard]] std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key);
-
-// Features with the given names; all of them if there are no names. An error lists the names in the file.
-[[nodiscard]] std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,
-                                                  const std::string& name_attribute);
-
 }  // namespace thawslide::gis

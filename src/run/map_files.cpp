@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
-#include "gis/holes.hpp"
+#include "gis/dem_warnings.hpp"
 #include "gis/roughness.hpp"
 #include "gis/site.hpp"
 #include "sim/direction.hpp"

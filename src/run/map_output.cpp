@@ -2,12 +2,13 @@
 
 #ifdef THAWSLIDE_WITH_GIS
 
-#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "base/raster_sampling.hpp"
+#include "gis/coverage.hpp"
 #include "gis/geopackage.hpp"
-#include "gis/map_classes.hpp"
 #include "gis/map_style.hpp"
 #include "gis/raster_file.hpp"
 #include "io/files.hpp"
@@ -87,13 +88,9 @@ gis::MapLayer release_layer(const config::Site& site, const MapTexts& texts) {
                                              : gis::polygons_of_rings(release.outlines));
     names.push_back(name);
     sizes.push_back(gis::area_of(areas.back()));
-    double sum = 0.0, most = 0.0;
-    for (const double value : thickness.values) {
-      sum += std::isnan(value) ? 0.0 : value;
-      most = std::max(most, std::isnan(value) ? 0.0 : value);
-    }
-    volumes.push_back(sum * thickness.cell_x * thickness.cell_y);
-    largest.push_back(most);
+    volumes.push_back(volume_of(thickness));
+    largest.push_back(std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0,
+                                      [](double most, double value) { return std::fmax(most, value); }));
   }
   const std::vector<std::string> runs(areas.size(), texts.run);
   return {"release_area",
@@ -155,12 +152,9 @@ void write_ground_maps(const fs::path& folder, const sim::Simulation<3>& simulat
     const Raster& thickness = body.thickness;
     const auto column = static_cast<int>(std::lround((thickness.x - release.x) / release.cell_x));
     const auto row = static_cast<int>(std::lround((thickness.y - release.y) / release.cell_y));
-    for (int j = 0; j < thickness.rows; ++j) {
-      for (int i = 0; i < thickness.columns; ++i) {
-        const double value = thickness.at(i, j);
-        release.values[release.index(column + i, row + j)] += std::isnan(value) ? 0.0 : value;
-      }
-    }
+    for_each_point(thickness, [&](int i, int j, double value) {
+      release.values[release.index(column + i, row + j)] += std::isnan(value) ? 0.0 : value;
+    });
   }
   write_map(folder, release_map.name, release, {release_map.unit, release_map.description});
   write_styles(folder, release_map.name);

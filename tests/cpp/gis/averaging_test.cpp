@@ -1,10 +1,9 @@
 // Rasters finer than the ground are averaged over its cells: volumes are conserved for any points and reference
 // systems.
-#include "gis/averaging.hpp"
-
 #include <random>
 
 #include "gis/polygons.hpp"
+#include "gis/sampling.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -9,7 +9,6 @@
 
 #include "base/atomic_file.hpp"
 #include "gis/geopackage.hpp"
-#include "gis/map_classes.hpp"
 #include "gis/map_style.hpp"
 #include "gis/vector_file.hpp"
 #include "map_files.hpp"

@@ -1,6 +1,5 @@
 // Points of a DEM whose value indicates missing data although the file does not declare it.
-#include "gis/pits.hpp"
-
+#include "gis/dem_warnings.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -4,7 +4,6 @@
 #include <random>
 
 #include "gis/coverage.hpp"
-#include "gis/geopackage.hpp"
 #include "gis/polygons.hpp"
 #include "map_files.hpp"
 

@@ -3,10 +3,10 @@
 
 #include <numeric>
 
+#include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/sampling.hpp"
-#include "gis/taper.hpp"
 #include "map_files.hpp"
 
 namespace thawslide::gis {

@@ -6,7 +6,7 @@
 
 #include "base/raster_sampling.hpp"
 #include "gis/dem.hpp"
-#include "gis/smoothing.hpp"
+#include "gis/filters.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

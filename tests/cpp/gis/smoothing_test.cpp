@@ -1,11 +1,10 @@
 // The Gaussian filter: planes, means, edges and holes, and the wedge effect of valleys.
-#include "gis/smoothing.hpp"
-
 #include <cmath>
 #include <functional>
 #include <numeric>
 #include <random>
 
+#include "gis/filters.hpp"
 #include "gis/roughness.hpp"
 #include "map_files.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <ogrsf_frmts.h>
 
+#include "gis/features.hpp"
 #include "gis/geopackage.hpp"
-#include "gis/valued_areas.hpp"
 #include "map_files.hpp"
 
 namespace thawslide::gis {

@@ -5,7 +5,7 @@
 
 #include "../support/channel_on_dem.hpp"
 #include "gis/roughness.hpp"
-#include "gis/smoothing.hpp"
+#include "gis/filters.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification::rough_dem {

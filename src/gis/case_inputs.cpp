@@ -1,6 +1,9 @@
-#include "gis/error_location.hpp"
+#include "gis/case_inputs.hpp"
 
 #include "base/rounding.hpp"
+#include "gis/raster_file.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
 
@@ -18,6 +21,14 @@ void add_warning(const std::string& warning, std::vector<std::string>& warnings)
   }
 }
 
+std::string joined_by_and(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
+  }
+  return text;
+}
+
 std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
   std::vector<std::string> sides;
   const auto add = [&](double distance, const char* side) {
@@ -30,11 +41,7 @@ std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
   add(inner.max_x - outer.max_x, "east");
   add(outer.min_y - inner.min_y, "south");
   add(inner.max_y - outer.max_y, "north");
-  std::string words;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    words += (k == 0 ? "" : k + 1 == sides.size() ? " and " : ", ") + sides[k];
-  }
-  return words;
+  return joined_by_and(sides);
 }
 
 std::string format_range(const Rectangle& rectangle) {
@@ -46,6 +53,27 @@ std::string format_range(const Rectangle& rectangle) {
 Rectangle domain_of(const config::Case& parameters) {
   const auto& [min, max] = std::pair(parameters.grid.min, parameters.grid.max);
   return {min[0], min[1], max[0], max[1]};
+}
+
+Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& warnings) {
+  return with_error_location(parameters, request.key, [&] {
+    const RasterFile file(request.file, request.quantity);
+    if (!request.heights.empty()) {
+      require_same_heights(request.file, height_system_of(file.layout().crs), request.heights);
+    }
+    const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
+    add_warning(system.warning, warnings);
+    add_warning(file.conversion().warning, warnings);
+    const bool same_system = Reprojection(system.wkt, request.crs).changes_nothing();
+    if (same_system && request.area && !request.area->touches(span_of_points(file.layout()))) {
+      throw UserError(
+          "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference system.",
+          request.file, format_range(span_of_points(file.layout())), request.reason, format_range(*request.area));
+    }
+    Raster raster = file.read(same_system ? request.area : std::nullopt);
+    raster.crs = system.wkt;
+    return raster;
+  });
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-// Gaussian filter over a raster.
+// Filters of rasters: smoothing of a DEM, and tapering of the edge of a thickness.
 #pragma once
 
 #include "base/raster.hpp"
@@ -15,5 +15,13 @@ inline constexpr double smoothing_reach = 4.0;  // standard deviations
 // Planes are reproduced exactly. The mean height is conserved if the ground is plane within the filter's reach of the
 // edge.
 [[nodiscard]] Raster smoothed(const Raster& raster, double standard_deviation);
+
+// Number of points on each side within the reach of a width [m].
+[[nodiscard]] int taper_reach(double width, double cell);
+
+// Mean of a thickness around each point, with weights 1 + cos(2 pi d / w) for d < w / 2 along each axis: a straight
+// edge becomes a ramp of width w with smooth ends. The weights sum to 1, so the volume is conserved if the raster has
+// zeros within half the width of every side.
+[[nodiscard]] Raster tapered(const Raster& thickness, double width);
 
 }  // namespace thawslide::gis

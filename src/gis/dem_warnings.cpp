@@ -1,18 +1,33 @@
-#include "gis/pits.hpp"
+#include "gis/dem_warnings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "base/raster_sampling.hpp"
+#include "base/text.hpp"
+#include "gis/case_inputs.hpp"
+
 namespace thawslide::gis {
 
 namespace {
+
+// Distance to the nearest release, each represented by its bounding rectangle [m].
+double distance_to_releases(const config::Site& site, double x, double y) {
+  double least = HUGE_VAL;
+  for (const auto& [name, release] : site.releases) {
+    const Raster& area = release.thickness;
+    const double along_x = std::max({0.0, area.x - x, x - area.x_end()});
+    const double along_y = std::max({0.0, area.y - y, y - area.y_end()});
+    least = std::min(least, std::hypot(along_x, along_y));
+  }
+  return least;
+}
 
 constexpr double least_step = 100.0;           // m
 constexpr double steep = 5.67128181961770953;  // tan(80 degrees)
@@ -29,13 +44,11 @@ class Patches {
   explicit Patches(const Raster& ground) : ground_(ground), seen_(ground.values.size(), 0) {}
 
   std::map<double, Apart> apart() {
-    for (int row = 0; row < ground_.rows; ++row) {
-      for (int column = 0; column < ground_.columns; ++column) {
-        if (begins_patch(column, row)) {
-          add_patch(column, row);
-        }
+    for_each_point(ground_, [&](int column, int row, double) {
+      if (begins_patch(column, row)) {
+        add_patch(column, row);
       }
-    }
+    });
     return std::move(found_);
   }
 
@@ -121,6 +134,51 @@ class Patches {
 
 }  // namespace
 
+std::vector<std::string> probes_in_holes(const config::Site& site) {
+  const Raster& ground = *site.ground;
+  std::vector<std::string> warnings;
+  for (const auto& [name, corners] : site.probes) {
+    const bool is_known = std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
+      return !std::isnan(bilinear(ground, corner[0], corner[1], Missing::unknown));
+    });
+    if (!is_known) {
+      warnings.push_back(fmt::format(
+          "probe.{}: the DEM has no data there, and the probe reports zeros. Move it to where the terrain is known.",
+          name));
+    }
+  }
+  return warnings;
+}
+
+std::string holes_warning(const config::Case& parameters, const config::Site& site) {
+  const Raster& ground = *site.ground;
+  const Rectangle domain = domain_of(parameters);
+  std::size_t points = 0, unknown = 0;
+  double nearest = HUGE_VAL, nearest_x = 0.0, nearest_y = 0.0;
+  for_each_point(ground, [&](int column, int row, double height) {
+    const double x = ground.x_of(column), y = ground.y_of(row);
+    if (!domain.contains(x, y)) {
+      return;
+    }
+    ++points;
+    const double distance = std::isnan(height) ? distance_to_releases(site, x, y) : HUGE_VAL;
+    if (std::isnan(height) && (unknown++ == 0 || distance < nearest)) {
+      nearest = distance;
+      nearest_x = x;
+      nearest_y = y;
+    }
+  });
+  if (unknown == 0) {
+    return "";
+  }
+  const std::string from = site.releases.empty() ? "" : fmt::format(", about {:.0f} m from the release", nearest);
+  return fmt::format(
+      "{} of {} points of the DEM within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide that gets "
+      "there {}",
+      unknown, points, nearest_x, nearest_y, from,
+      parameters.grid.leaving == config::Policy::remove ? "is removed and counted" : "ends the run");
+}
+
 std::string pits_warning(const std::string& file, const Raster& ground) {
   double value = 0.0;
   Apart most;
@@ -133,7 +191,7 @@ std::string pits_warning(const std::string& file, const Raster& ground) {
   if (most.points == 0) {
     return "";
   }
-  const std::string path = std::filesystem::path(file).filename().string();
+  const std::string path = name_of_file(file);
   return fmt::format(
       "{} point{} of {} {} exactly {:.9g} m among heights of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
       "without data? Then declare it in the file, gdal_edit.py -a_nodata {:.9g} {}, or fill it",
@@ -142,21 +200,18 @@ std::string pits_warning(const std::string& file, const Raster& ground) {
 }
 
 std::string thickness_warning(const std::string& file, const Raster& ground) {
-  for (int row = 0; row < ground.rows; ++row) {
-    const bool is_end = row == 0 || row + 1 == ground.rows;
-    for (int column = 0; column < ground.columns; column += is_end ? 1 : std::max(1, ground.columns - 1)) {
-      if (ground.at(column, row) != 0.0) {
-        return "";
-      }
-    }
-  }
-  const auto is_height = [](double value) { return value != 0.0 && !std::isnan(value); };
-  return std::none_of(ground.values.begin(), ground.values.end(), is_height)
+  bool is_edge_zero = true, has_height = false;
+  for_each_point(ground, [&](int column, int row, double value) {
+    const bool is_edge = row == 0 || row + 1 == ground.rows || column == 0 || column + 1 == ground.columns;
+    is_edge_zero = is_edge_zero && (!is_edge || value == 0.0);
+    has_height = has_height || (value != 0.0 && !std::isnan(value));
+  });
+  return !is_edge_zero || !has_height
              ? ""
              : fmt::format(
                    "{}: all elevations at its edge are 0, but not inside: is it a raster of the thickness, swapped "
                    "with the DEM? If it is, correct the path",
-                   std::filesystem::path(file).filename().string());
+                   name_of_file(file));
 }
 
 }  // namespace thawslide::gis

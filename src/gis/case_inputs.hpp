@@ -1,12 +1,16 @@
-// Messages at the location of a key of the case: "case.toml:12:7: terrain.file: ...", "--dem: ..."
+// Inputs of a case that a key names: errors at the location of the key ("case.toml:12:7: terrain.file: ...", "--dem:
+// ..."), warnings, and rasters other than the DEM.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/raster.hpp"
 #include "config/case.hpp"
 #include "gis/rectangle.hpp"
+#include "gis/value_unit.hpp"
 
 namespace thawslide::gis {
 
@@ -32,6 +36,9 @@ auto with_error_location(const config::Case& parameters, const std::string& key,
 // Appends a warning unless it is empty.
 void add_warning(const std::string& warning, std::vector<std::string>& warnings);
 
+// "1, 2 and 7"
+[[nodiscard]] std::string joined_by_and(const std::vector<std::string>& words);
+
 // Distance by which a rectangle extends beyond another, such as "120 m in the west and 30 m in the north"; empty if it
 // does not.
 [[nodiscard]] std::string describe_overhang(const Rectangle& inner, const Rectangle& outer);
@@ -41,5 +48,20 @@ void add_warning(const std::string& warning, std::vector<std::string>& warnings)
 
 // Sides of the domain.
 [[nodiscard]] Rectangle domain_of(const config::Case& parameters);
+
+struct MapRequest {
+  std::string key;  // key that named the file
+  std::string file;
+  Quantity quantity;                   // of its values
+  std::string crs;                     // of the ground
+  std::optional<Rectangle> area;       // required area in the ground's coordinates; empty: the whole raster
+  std::string reason = "the release";  // purpose in that area
+  std::string heights = {};            // vertical reference system of the DEM, for elevations
+};
+
+// The reference system is that of the file. It is that of the ground, with a warning, if the file has none, or one that
+// its coordinates cannot be in. Throws UserError if the raster does not overlap the area.
+[[nodiscard]] Raster read_map(const config::Case& parameters, const MapRequest& request,
+                              std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

@@ -1,0 +1,49 @@
+// Features of a vector file selected by their names, or grouped by the values of an attribute.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "config/case.hpp"
+#include "gis/vector_file.hpp"
+
+namespace thawslide::gis {
+
+// Spelling of an attribute's name in the file: the same name, otherwise one that differs only in letter case. Throws
+// UserError for none and for several. `key`: for the message.
+[[nodiscard]] std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key);
+
+// Features with the given names; all of them if there are no names. An error lists the names in the file.
+[[nodiscard]] std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,
+                                                  const std::string& name_attribute);
+
+struct ValuedArea {
+  double value = 0.0;
+  Polygons polygons;  // union of those with the value
+};
+
+// Features of a layer in groups, by increasing value. Throws UserError if a feature lacks the attribute or has a text
+// as its value, and if features of different values overlap. `key`: key that names the attribute, for messages.
+[[nodiscard]] std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::string& attribute,
+                                                     const std::string& key);
+
+struct PolygonRequest {
+  std::string table;  // of the case, with a point: "bed."
+  std::string key;    // in that table, which names the file
+  std::string file;
+  std::vector<std::string> names;  // empty: all polygons
+  std::string name_attribute;
+};
+
+// The file with the selected features, in the ground's coordinates (WKT). Appends warnings.
+[[nodiscard]] VectorLayer read_named_polygons(const config::Case& parameters, const PolygonRequest& request,
+                                              const std::string& crs, std::vector<std::string>& warnings);
+
+[[nodiscard]] Polygons union_of_features(const VectorLayer& layer);
+
+// Part of the request's polygons in the domain. Throws UserError if there is none.
+[[nodiscard]] Polygons part_in_domain(const config::Case& parameters, const PolygonRequest& request,
+                                      const Polygons& polygons);
+
+}  // namespace thawslide::gis
