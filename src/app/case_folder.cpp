@@ -12,7 +12,7 @@
 #include "base/shell_quote.hpp"
 #include "config/read_case.hpp"
 #include "run/block_model.hpp"
-#include "run/warnings.hpp"
+#include "run/setup.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/point_window.hpp"

@@ -13,10 +13,9 @@
 #include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "run/device_choice.hpp"
-#include "run/input_guard.hpp"
-#include "run/map_files.hpp"
+#include "run/input_files.hpp"
 #include "run/run_loop.hpp"
-#include "run/setup_warnings.hpp"
+#include "run/setup.hpp"
 #include "sim/records/run_records.hpp"
 
 namespace thawslide::app {

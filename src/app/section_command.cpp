@@ -13,7 +13,7 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/section_proposal.hpp"
-#include "io/terrain_csv.hpp"
+#include "io/history_writer.hpp"
 #include "sim/block/section.hpp"
 
 namespace thawslide::app {

@@ -19,7 +19,7 @@
 #include "config/read_case.hpp"
 #include "io/history_writer.hpp"
 #include "run/block_model.hpp"
-#include "run/input_guard.hpp"
+#include "run/input_files.hpp"
 #include "version.hpp"
 
 namespace thawslide::app {

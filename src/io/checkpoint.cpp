@@ -6,7 +6,6 @@
 #include "base/atomic_file.hpp"
 #include "config/input_limits.hpp"
 #include "io/files.hpp"
-#include "io/sha256.hpp"
 #include "io/snapshot.hpp"
 
 namespace thawslide::io {
@@ -93,7 +92,7 @@ std::string damage_of(const std::filesystem::path& file, const std::string& byte
   if (bytes.size() > stored.size()) {
     const std::size_t body = bytes.size() - stored.size();
     std::memcpy(stored.data(), bytes.data() + body, stored.size());
-    if (sha256(bytes.data(), body) == stored) {
+    if (sha256(std::string_view(bytes).substr(0, body)) == stored) {
       return "";
     }
   }
@@ -209,7 +208,7 @@ std::string checkpoint_bytes(const mpm::Particles<Dim>& particles, std::size_t a
     writer.put(name);
     writer.put(numbers);
   }
-  const Digest digest = sha256(writer.text().data(), writer.text().size());
+  const Digest digest = sha256(writer.text());
   writer.put_raw(digest.data(), digest.size());
   return writer.text();
 }

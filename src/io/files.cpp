@@ -1,5 +1,6 @@
 #include "io/files.hpp"
 
+#include <openssl/evp.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -78,6 +79,22 @@ std::string host_name() {
   char name[256] = "";
   gethostname(name, sizeof name - 1);
   return name;
+}
+
+Digest sha256(std::string_view text) {
+  Digest digest{};
+  unsigned int length = 0;
+  const int success = EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr);
+  THAWSLIDE_ASSERT(success == 1 && length == digest.size(), "SHA-256 of {} bytes failed", text.size());
+  return digest;
+}
+
+std::string sha256_hex(std::string_view text) {
+  std::string digits;
+  for (const unsigned char byte : sha256(text)) {
+    digits += fmt::format("{:02x}", byte);
+  }
+  return digits;
 }
 
 }  // namespace thawslide::io

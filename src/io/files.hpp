@@ -1,8 +1,11 @@
-// Reading and removing files, and folders for them.
+// Reading and removing files, folders for them, and SHA-256.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace thawslide::io {
 
@@ -28,5 +31,11 @@ void require_regular(const std::filesystem::path& file);
 
 // Name of this machine.
 [[nodiscard]] std::string host_name();
+
+using Digest = std::array<unsigned char, 32>;
+
+Digest sha256(std::string_view text);
+// As 64 hexadecimal digits.
+std::string sha256_hex(std::string_view text);
 
 }  // namespace thawslide::io

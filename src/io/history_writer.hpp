@@ -1,4 +1,5 @@
-// history.csv: one row per output time, appended with a single write, so that a killed run leaves complete rows.
+// CSV files: history.csv and probes.csv, with one row per output time, appended with a single write, so that a killed
+// run leaves complete rows; profiles of a run (terrain.csv, for figures) and of cases.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "config/profile_csv.hpp"
 
 namespace thawslide::io {
 
@@ -58,5 +61,10 @@ std::optional<double> last_time_in_history(const std::filesystem::path& file);
 
 // Shortest decimal text that reads back to the same number.
 std::string shortest(double value);
+
+// Columns distance_m, terrain_elevation_m, and surface_elevation_m if the profile has it; preceded by the comments, one
+// per line.
+void write_profile_csv(const std::filesystem::path& file, const config::ProfileTable& profile,
+                       const std::vector<std::string>& comments = {});
 
 }  // namespace thawslide::io

@@ -11,7 +11,6 @@
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
 #include "io/files.hpp"
-#include "io/sha256.hpp"
 #include "version.hpp"
 
 namespace thawslide::io {
@@ -49,41 +48,38 @@ std::string now_utc() {
   return text;
 }
 
+// Calls work(key of run.json, member) for the members of a part.
+template <class Part, class Work>
+void for_each_member(Part& part, const Work& work) {
+  work("version", part.version);
+  work("commit", part.commit);
+  work("command", part.command);
+  work("host", part.host);
+  work("processor", part.processor);
+  work("threads", part.threads);
+  work("device", part.device);
+  work("started", part.started);
+  work("from_s", part.from_time);
+  work("changes", part.changes);
+  work("warnings", part.warnings);
+  work("case_sha256", part.case_sha256);
+  work("wall_s", part.wall_seconds);
+  work("particle_steps", part.particle_steps);
+}
+
 OrderedJson json_of(const RunPart& part) {
   OrderedJson json;
-  json["version"] = part.version;
-  json["commit"] = part.commit;
-  json["command"] = part.command;
-  json["host"] = part.host;
-  json["processor"] = part.processor;
-  json["threads"] = part.threads;
-  json["device"] = part.device;
-  json["started"] = part.started;
-  json["from_s"] = part.from_time;
-  json["changes"] = part.changes;
-  json["warnings"] = part.warnings;
-  json["case_sha256"] = part.case_sha256;
-  json["wall_s"] = part.wall_seconds;
-  json["particle_steps"] = part.particle_steps;
+  for_each_member(part, [&](const char* key, const auto& value) { json[key] = value; });
   return json;
 }
 
 RunPart part_of(const OrderedJson& json) {
   RunPart part;
-  part.version = json.at("version");
-  part.commit = json.at("commit");
-  part.command = json.at("command");
-  part.host = json.at("host");
-  part.processor = json.at("processor");
-  part.threads = json.at("threads");
-  part.device = json.value("device", "");
-  part.started = json.at("started");
-  part.from_time = json.at("from_s");
-  part.changes = json.at("changes").get<std::vector<std::string>>();
-  part.warnings = json.value("warnings", std::vector<std::string>{});
-  part.case_sha256 = json.at("case_sha256");
-  part.wall_seconds = json.at("wall_s");
-  part.particle_steps = json.at("particle_steps");
+  for_each_member(part, [&](const std::string& key, auto& value) {
+    if (json.contains(key) || (key != "device" && key != "warnings")) {  // older runs lack these two
+      json.at(key).get_to(value);
+    }
+  });
   return part;
 }
 
@@ -96,20 +92,10 @@ RunPart part_of(const OrderedJson& json) {
 
 }  // namespace
 
-RunPart part_of_this_process() {
-  RunPart part;
-  part.version = version;
-  part.commit = commit;
-  part.command = command_line();
-  part.host = host_name();
-  part.processor = processor_name();
-  part.started = now_utc();
-  return part;
-}
+RunPart part_of_this_process() { return {version, commit, command_line(), host_name(), processor_name(), now_utc()}; }
 
 void write_provenance(const fs::path& file, const Provenance& p) {
   THAWSLIDE_ASSERT(!p.parts.empty(), "{} of a run without parts", file.string());
-  const RunPart& first = p.parts.front();
   double wall = 0.0, particle_steps = 0.0;
   OrderedJson parts = OrderedJson::array();
   for (const RunPart& part : p.parts) {
@@ -119,13 +105,9 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   }
   OrderedJson json;
   json["program"] = "thawslide";
-  json["version"] = first.version;
-  json["commit"] = first.commit;
-  json["command"] = first.command;
-  json["host"] = first.host;
-  json["processor"] = first.processor;
-  json["threads"] = first.threads;
-  json["started"] = first.started;
+  for (const char* key : {"version", "commit", "command", "host", "processor", "threads", "started"}) {
+    json[key] = parts.front()[key];
+  }
   json["status"] = p.status;
   json["message"] = p.message;
   json["simulated_time_s"] = p.simulated_time;
@@ -177,7 +159,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
     const auto known = texts.find(file);
     const std::string content = known == texts.end() ? read_file(file) : known->second;
     write_file_atomically(folder / "inputs" / name, content);
-    inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});
+    inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content), content.size()});
   }
   return inputs;
 }
@@ -211,9 +193,6 @@ Provenance read_provenance(const fs::path& folder) {
   return provenance;
 }
 
-std::string sha256_of_file(const fs::path& file) {
-  const std::string content = read_file(file);
-  return sha256_hex(content.data(), content.size());
-}
+std::string sha256_of_file(const fs::path& file) { return sha256_hex(read_file(file)); }
 
 }  // namespace thawslide::io

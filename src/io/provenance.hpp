@@ -25,11 +25,11 @@ struct InputFile {
 struct RunPart {
   std::string version, commit, command, host, processor, started;  // started: UTC, ISO 8601
   int threads = 1;
-  std::string device;                 // device of the steps; empty: CPU
-  double from_time = 0.0;             // simulated time at the beginning [s]
-  std::vector<std::string> changes;   // to the case, as --set texts
-  std::vector<std::string> warnings;  // about damaged files at the beginning, and their treatment
-  std::string case_sha256;            // of the resolved case of this part
+  std::string device = {};                 // device of the steps; empty: CPU
+  double from_time = 0.0;                  // simulated time at the beginning [s]
+  std::vector<std::string> changes = {};   // to the case, as --set texts
+  std::vector<std::string> warnings = {};  // about damaged files at the beginning, and their treatment
+  std::string case_sha256 = {};            // of the resolved case of this part
   double wall_seconds = 0.0;
   double particle_steps = 0.0;  // number of particles, summed over the steps
 };

@@ -10,8 +10,7 @@
 #include "config/notices.hpp"
 #include "config/profile_csv.hpp"
 #include "physics/basal/shared_parameters.hpp"
-#include "run/map_files.hpp"
-#include "run/warnings.hpp"
+#include "run/setup.hpp"
 #include "sim/block/block.hpp"
 #include "sim/block/path_section.hpp"
 

@@ -18,15 +18,13 @@
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
 #include "io/history_writer.hpp"
-#include "io/run_files.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_lock.hpp"
-#include "io/sha256.hpp"
 #include "run/device_choice.hpp"
-#include "run/map_files.hpp"
 #include "run/resume_checks.hpp"
 #include "run/run_loop.hpp"
 #include "run/schedule.hpp"
+#include "run/setup.hpp"
 #include "run/start.hpp"
 #include "run/state.hpp"
 
@@ -86,7 +84,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
   }
   io::RunPart part = io::part_of_this_process();
   part.changes = sets;
-  part.case_sha256 = sha256_of_text(next.case_text);
+  part.case_sha256 = io::sha256_hex(next.case_text);
   next.earlier.parts.push_back(std::move(part));
   return next;
 }
@@ -265,7 +263,7 @@ ExitCode resume_copy(const ResumeOptions& options, Observer& observer) {
   io::require_usable(options.output, false);
   const bool is_new = !fs::exists(options.output);
   const auto remove_copy = [&] {
-    io::remove_copy_of_run(options.folder, options.output);
+    io::remove_files_of_run(options.folder, options.output);
     if (is_new && fs::is_empty(options.output)) {
       io::remove_or_throw(options.output);
     }

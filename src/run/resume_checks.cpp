@@ -13,7 +13,6 @@
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
 #include "io/history_writer.hpp"
-#include "io/sha256.hpp"
 #include "run/input_files.hpp"
 
 namespace thawslide::run {
@@ -63,7 +62,7 @@ void require_same_changes(const fs::path& folder, const std::vector<std::string>
 // Requires that the checkpoint belongs to this run, because that of another run may have been copied there.
 void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
                                const std::string& of_checkpoint) {
-  const std::string sha256 = sha256_of_text(of_checkpoint);
+  const std::string sha256 = io::sha256_hex(of_checkpoint);
   const bool is_known = std::any_of(facts.parts.begin(), facts.parts.end(),
                                     [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
   if (!is_known) {
@@ -76,8 +75,6 @@ void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& fac
 }
 
 }  // namespace
-
-std::string sha256_of_text(const std::string& text) { return io::sha256_hex(text.data(), text.size()); }
 
 std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes,
                       const std::string& otherwise) {
@@ -154,7 +151,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   }
   const std::string now = io::read_file(file);
   require_checkpoint_of_run(folder, facts, now, before);
-  std::optional<std::vector<std::string>> cut_off = changes_cut_off(facts, sha256_of_text(now));
+  std::optional<std::vector<std::string>> cut_off = changes_cut_off(facts, io::sha256_hex(now));
   if (!cut_off) {
     const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
     if (!changes.empty()) {
@@ -165,7 +162,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
       throw UserError("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
                       fmt::join(changes, "; "), advice_on(folder, facts, changes, usual));
     }
-    cut_off = changes_cut_off(facts, sha256_of_text(before));  // the case text is that of the checkpoint
+    cut_off = changes_cut_off(facts, io::sha256_hex(before));  // the case text is that of the checkpoint
   }
   require_same_changes(folder, *cut_off, sets);
 }

@@ -11,8 +11,6 @@
 
 namespace thawslide::run {
 
-[[nodiscard]] std::string sha256_of_text(const std::string& text);
-
 // Advice on changes of case.toml; `otherwise`: advice for changes other than a later end.
 [[nodiscard]] std::string advice_on(const std::filesystem::path& folder, const io::Provenance& facts,
                                     const std::vector<std::string>& changes, const std::string& otherwise);

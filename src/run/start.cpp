@@ -7,11 +7,10 @@
 #include "io/run_folder.hpp"
 #include "run/device_choice.hpp"
 #include "run/disk_need.hpp"
-#include "run/input_guard.hpp"
-#include "run/map_files.hpp"
+#include "run/input_files.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
-#include "run/setup_warnings.hpp"
+#include "run/setup.hpp"
 
 namespace thawslide::run {
 

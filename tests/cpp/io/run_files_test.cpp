@@ -1,6 +1,4 @@
 // Ownership of files in a folder: a run that is replaced is removed with its files, and no others.
-#include "io/run_files.hpp"
-
 #include <gtest/gtest.h>
 
 #include <iterator>

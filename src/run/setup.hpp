@@ -1,10 +1,13 @@
-// Warnings and notes about a case, other than results and errors: reported immediately, and kept.
+// Reading of the map files of a case, and its warnings and notes, other than results and errors.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "config/case.hpp"
+#include "config/site.hpp"
 #include "run/observer.hpp"
+#include "sim/checks/body_figures.hpp"
 
 namespace thawslide::run {
 
@@ -26,5 +29,13 @@ class Warnings {
   Observer* observer_;
   std::vector<std::string> all_;
 };
+
+// Requires a simulation before its first step.
+template <int Dim>
+void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vector<sim::BodyFigures>& bodies,
+                        Warnings& warnings);
+
+// Contents of the map files; empty for a case without any. Throws UserError for a build without GDAL.
+config::Site read_map_files(const config::Case& parameters, Warnings& warnings);
 
 }  // namespace thawslide::run
