@@ -52,10 +52,6 @@ gis::Rectangle span_of_dem(const std::string& dem) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 // The predicate of a sentence about the block.
 std::string reach_text(const fs::path& folder, const config::ProposedBase& base, const char* longer) {
   constexpr double leaves = 1.0, moves = 0.01;  // m; fraction of the peak speed
@@ -176,10 +172,6 @@ std::string as_option_names(std::string message) {
   }
   return message;
 }
-
-}  // namespace
-
-namespace {
 
 gis::SiteAndWarnings read_files(const config::Case& trial) {
   try {

@@ -291,10 +291,6 @@ int run_program(int count, char** arguments) {
   return run->parsed() || resume->parsed() ? exit_code : with_output_written(exit_code);
 }
 
-}  // namespace
-
-namespace {
-
 // Escapes control characters, because names of files, attributes and others come from external sources.
 std::string printable(std::string text) { return thawslide::config::printable(std::move(text), "\n\t"); }
 

@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <initializer_list>
 
 namespace thawslide::app {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -49,6 +52,21 @@ void open_standard_streams() {
       static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
     }
   }
+}
+
+const char* const python_program_remedy =
+    "It is part of the Python package: `./run --setup` installs it into .venv; put .venv/bin on PATH.";
+
+std::string python_program(const std::string& name) {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  // The build folder of a checkout is build/PRESET.
+  for (const fs::path& candidate : {folder / name, folder / ".." / ".." / ".venv" / "bin" / name}) {
+    if (!folder.empty() && access(candidate.c_str(), X_OK) == 0) {
+      return candidate.string();
+    }
+  }
+  return name;
 }
 
 }  // namespace thawslide::app

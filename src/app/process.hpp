@@ -1,6 +1,8 @@
-// Signals and standard streams of the process. Ctrl-C and kill: a run completes its step, writes its state and stops
-// with exit code 4.
+// Signals and standard streams of the process, and programs of the Python package. Ctrl-C and kill: a run completes its
+// step, writes its state and stops with exit code 4.
 #pragma once
+
+#include <string>
 
 namespace thawslide::app {
 
@@ -19,5 +21,12 @@ int caught_signal();
 // Occupies standard streams that the parent process has closed, so that no later file takes their descriptors and
 // receives messages. Reading and writing such a stream fails as before.
 void open_standard_streams();
+
+// Path of a program such as thawslide-report next to this program, as in an installed package, or in the .venv of the
+// checkout in which this program was built; otherwise its name, which is then searched on PATH.
+std::string python_program(const std::string& name);
+
+// "It is part of ...": where to get such a program, for messages.
+extern const char* const python_program_remedy;
 
 }  // namespace thawslide::app

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/substrate_list.hpp"
 #include "base/available_memory.hpp"
+#include "config/case.hpp"
 #include "config/resolution.hpp"
 #include "config/site.hpp"
 #include "run/device_choice.hpp"
@@ -17,6 +17,15 @@
 #include "sim/solver/time_step.hpp"
 
 namespace thawslide::app {
+
+// Substrate with separate laws, or the remaining ground with [basal].
+struct SubstrateFacts {
+  std::string name;       // empty: ground with the laws of [basal]
+  std::string location;   // as text
+  double covered = 0.0;   // part of the domain: [m2], in 2D [m]
+  double fraction = 0.0;  // fraction of the domain
+  std::string strength;   // laws as text
+};
 
 // Maps of a 3D run.
 struct MapFacts {
@@ -59,5 +68,8 @@ struct SetupFacts {
 
 [[nodiscard]] std::string text_of(const SetupFacts& facts);
 [[nodiscard]] std::string json_of(const SetupFacts& facts);
+
+// Each substrate, and last the remaining ground with [basal]; empty if the case has no substrates.
+[[nodiscard]] std::vector<SubstrateFacts> substrate_facts(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::app

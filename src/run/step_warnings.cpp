@@ -110,9 +110,11 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
 }
 
 std::string StepWarnings::warning_of_removal(double time, const sim::Removed& removed) {
-  return fmt::format(
-      "warning: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number", time,
-      sim::text_of(removed));
+  return removed.by_guards() == 0
+             ? ""
+             : fmt::format(
+                   "warning: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number",
+                   time, sim::text_of(removed));
 }
 
 template std::string BoilingWatch::warning<2>(const sim::Simulation<2>&);

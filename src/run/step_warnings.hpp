@@ -34,24 +34,15 @@ class StepWarnings {
   template <int Dim>
   [[nodiscard]] std::vector<std::string> after_step(const sim::Simulation<Dim>& simulation) {
     std::vector<std::string> found;
-    if (!has_reported_removal_ && simulation.removed().by_guards() > 0) {
-      has_reported_removal_ = true;
-      found.push_back(warning_of_removal(simulation.time(), simulation.removed()));
-    }
-    if (!has_reported_splitting_) {
-      const std::string warning = simulation.split_warning();
-      has_reported_splitting_ = !warning.empty();
-      if (has_reported_splitting_) {
-        found.push_back(warning);
+    const auto report_once = [&](bool& has_reported, const auto& warning) {
+      if (const std::string text = has_reported ? "" : warning(); !text.empty()) {
+        has_reported = true;
+        found.push_back(text);
       }
-    }
-    if (!has_reported_energy_) {
-      const std::string warning = simulation.energy_warning();
-      has_reported_energy_ = !warning.empty();
-      if (has_reported_energy_) {
-        found.push_back(warning);
-      }
-    }
+    };
+    report_once(has_reported_removal_, [&] { return warning_of_removal(simulation.time(), simulation.removed()); });
+    report_once(has_reported_splitting_, [&] { return simulation.split_warning(); });
+    report_once(has_reported_energy_, [&] { return simulation.energy_warning(); });
     return found;
   }
   // New warnings at the time of a snapshot.
