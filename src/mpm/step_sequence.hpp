@@ -1,5 +1,6 @@
-// Sequence of the stages of a time step (Section 2.3 of the paper), written once for the CPU (sim/solver/cpu_solver.cpp)
-// and for devices (device/step.hpp). All stages use the shape functions at the initial positions of the step.
+// Sequence of the stages of a time step (Section 2.3 of the paper), written once for the CPU
+// (sim/solver/cpu_solver.cpp) and for devices (device/step.hpp). All stages use the shape functions at the initial
+// positions of the step.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
 //   P_i, S_i, n_i: averages with the linear shape functions                                    Eq. 21
 //   f_i of bodies that do not share nodes: including the forces between them                   mpm/body_contact.hpp
