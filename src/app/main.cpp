@@ -16,7 +16,7 @@
 
 #include "app/commands.hpp"
 #include "app/print.hpp"
-#include "app/process.hpp"
+#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"

@@ -1,11 +1,9 @@
 // thawslide run and resume.
-#include <algorithm>
 #include <set>
 #include <string_view>
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/process.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "config/case_changes.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "base/rounding.hpp"
 #include "physics/basal/laws.hpp"
@@ -45,8 +44,7 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
 
 // Bodies in the order of their release; empty if all are released at the start.
 std::string stages_text(std::vector<sim::BodyFigures> bodies) {
-  std::stable_sort(bodies.begin(), bodies.end(),
-                   [](const auto& a, const auto& b) { return a.release_time < b.release_time; });
+  std::ranges::stable_sort(bodies, [](const auto& a, const auto& b) { return a.release_time < b.release_time; });
   if (bodies.empty() || !(bodies.back().release_time > 0.0)) {
     return "";
   }

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <memory>
 
-#include "app/process.hpp"
+#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "sim/setup/release_body.hpp"
 

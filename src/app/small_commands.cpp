@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "app/commands.hpp"
-#include "app/process.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"

@@ -1,4 +1,6 @@
-// Run on a terminal or in a log: lines, progress as a bar on a terminal and as plain lines otherwise, and signals.
+// Run on a terminal or in a log: lines, progress as a bar on a terminal and as plain lines otherwise. Signals and
+// standard streams of the process, and programs of the Python package. Ctrl-C and kill: a run completes its step,
+// writes its state and stops with exit code 4.
 #pragma once
 
 #include <chrono>
@@ -12,7 +14,7 @@ class Terminal final : public run::Observer {
  public:
   Terminal();
 
-  // From the first call on, signals interrupt the run (app/signals.hpp).
+  // From the first call on, signals interrupt the run.
   void start(double time) override;
   void text(const std::string& line) override;
   void error(const std::string& line) override;
@@ -31,5 +33,28 @@ class Terminal final : public run::Observer {
   double begun_ = 0.0;  // start of that work, in CPU time [s]
   Clock::time_point start_, last_;
 };
+
+// SIGINT, SIGTERM and SIGHUP only set a flag from now on; a second one of any of them ends the program immediately.
+// Signals that are already ignored, as under nohup, remain ignored.
+void catch_signals();
+
+// A file above its size limit, or a pipe without a reader, becomes an error of the writing call instead of ending the
+// program.
+void survive_size_limits();
+void survive_closed_pipes();
+
+// Signal received, 0 if none.
+int caught_signal();
+
+// Occupies standard streams that the parent process has closed, so that no later file takes their descriptors and
+// receives messages. Reading and writing such a stream fails as before.
+void open_standard_streams();
+
+// Path of a program such as thawslide-report next to this program, as in an installed package, or in the .venv of the
+// checkout in which this program was built; otherwise its name, which is then searched on PATH.
+std::string python_program(const std::string& name);
+
+// "It is part of ...": where to get such a program, for messages.
+extern const char* const python_program_remedy;
 
 }  // namespace thawslide::app

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/raster.hpp"
 #include "config/case.hpp"
-#include "gis/rectangle.hpp"
+#include "gis/point_window.hpp"
 #include "gis/value_unit.hpp"
 
 namespace thawslide::gis {

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/geometry.hpp"
+#include "gis/gdal_types.hpp"
 
 namespace thawslide::gis {
 
@@ -104,8 +104,7 @@ Raster coverage_of(const Polygons& polygons, const Raster& layout) {
 Polygons areas_of_mask(const Raster& mask) {
   const GdalMessages messages;
   std::vector<std::uint8_t> bytes(mask.values.size());
-  std::transform(mask.values.begin(), mask.values.end(), bytes.begin(),
-                 [](double value) { return value != 0.0 && !std::isnan(value); });
+  std::ranges::transform(mask.values, bytes.begin(), [](double value) { return value != 0.0 && !std::isnan(value); });
   const auto create = [](const char* driver, int columns, int rows, int bands) {
     return GDALDatasetUniquePtr(
         GetGDALDriverManager()->GetDriverByName(driver)->Create("", columns, rows, bands, GDT_Byte, nullptr));

@@ -70,7 +70,7 @@ std::vector<fs::path> files_of_data_set(const fs::path& file) {
   const auto add = [&files](const fs::path& other) {
     std::error_code ignored;
     const auto is_it = [&](const fs::path& each) { return fs::equivalent(each, other, ignored); };
-    if (fs::is_regular_file(other, ignored) && std::none_of(files.begin(), files.end(), is_it)) {
+    if (fs::is_regular_file(other, ignored) && std::ranges::none_of(files, is_it)) {
       files.push_back(other);
     }
   };

@@ -16,7 +16,6 @@
 #include "gis/polygons.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
-#include "gis/resampling.hpp"
 #include "gis/roughness.hpp"
 
 namespace thawslide::gis {

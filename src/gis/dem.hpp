@@ -7,7 +7,7 @@
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
-#include "gis/rectangle.hpp"
+#include "gis/point_window.hpp"
 
 namespace thawslide::gis {
 

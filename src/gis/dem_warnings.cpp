@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "base/raster_sampling.hpp"
 #include "base/text.hpp"
@@ -138,7 +137,7 @@ std::vector<std::string> probes_in_holes(const config::Site& site) {
   const Raster& ground = *site.ground;
   std::vector<std::string> warnings;
   for (const auto& [name, corners] : site.probes) {
-    const bool is_known = std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
+    const bool is_known = std::ranges::any_of(corners, [&](const auto& corner) {
       return !std::isnan(bilinear(ground, corner[0], corner[1], Missing::unknown));
     });
     if (!is_known) {

@@ -17,7 +17,7 @@ namespace {
 
 // Names within a file may contain characters that control a terminal.
 std::vector<std::string> all_shown(std::vector<std::string> names) {
-  std::transform(names.begin(), names.end(), names.begin(), config::shown);
+  std::ranges::transform(names, names.begin(), config::shown);
   return names;
 }
 
@@ -45,12 +45,12 @@ void check_apart(const VectorLayer& layer, const std::string& attribute, const F
 }  // namespace
 
 std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key) {
-  if (std::count(layer.attributes.begin(), layer.attributes.end(), name) == 1) {
+  if (std::ranges::count(layer.attributes, name) == 1) {
     return name;
   }
   std::vector<std::string> alike;
-  std::copy_if(layer.attributes.begin(), layer.attributes.end(), std::back_inserter(alike),
-               [&](const std::string& attribute) { return lower_case(attribute) == lower_case(name); });
+  std::ranges::copy_if(layer.attributes, std::back_inserter(alike),
+                       [&](const std::string& attribute) { return lower_case(attribute) == lower_case(name); });
   if (alike.size() > 1) {
     throw UserError(
         "{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or one of exactly this "
@@ -81,10 +81,10 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
     if (text == feature.texts.end()) {
       continue;
     }
-    if (std::find(all.begin(), all.end(), text->second) == all.end()) {
+    if (std::ranges::find(all, text->second) == all.end()) {
       all.push_back(text->second);
     }
-    if (std::find(names.begin(), names.end(), text->second) != names.end()) {
+    if (std::ranges::find(names, text->second) != names.end()) {
       chosen.push_back(feature);
       found.insert(text->second);
     }

@@ -1,7 +1,6 @@
 // Features of a vector file selected by their names, or grouped by the values of an attribute.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 

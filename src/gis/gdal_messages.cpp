@@ -64,7 +64,7 @@ void CPL_STDCALL GdalMessages::collect(CPLErr severity, CPLErrorNum, const char*
   std::string line(text);
   std::replace(line.begin(), line.end(), '\n', ' ');
   line.erase(line.find_last_not_of(". ") + 1);  // our sentences add the full stop
-  if (std::find(self->texts_.begin(), self->texts_.end(), line) == self->texts_.end()) {
+  if (std::ranges::find(self->texts_, line) == self->texts_.end()) {
     self->texts_.push_back(line);
   }
 }

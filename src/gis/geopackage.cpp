@@ -10,8 +10,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/geometry.hpp"
-#include "gis/spatial_reference.hpp"
+#include "gis/gdal_types.hpp"
 
 namespace thawslide::gis {
 
@@ -85,7 +84,7 @@ bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReferenc
 
 // Writes the table in which QGIS stores the styles of a GeoPackage's layers; column names are those of QGIS.
 bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
-  if (std::all_of(layers.begin(), layers.end(), [](const MapLayer& layer) { return layer.style.empty(); })) {
+  if (std::ranges::all_of(layers, [](const MapLayer& layer) { return layer.style.empty(); })) {
     return true;
   }
   OGRLayer* const table = dataset.CreateLayer("layer_styles", nullptr, wkbNone, nullptr);

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <vector>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/geometry.hpp"
+#include "gis/gdal_types.hpp"
 
 namespace thawslide::gis {
 
@@ -156,7 +156,7 @@ bool make_nested_rings_holes(Polygons& polygons) {
   Polygons areas = polygons_of_rings(rings_of(polygons));
   const GdalMessages messages;
   const bool is_valid =
-      std::all_of(areas.begin(), areas.end(), [](const Polygon& area) { return to_geometry(area).IsValid() != 0; });
+      std::ranges::all_of(areas, [](const Polygon& area) { return to_geometry(area).IsValid() != 0; });
   // A hole outside every outline would be an area.
   if (!is_valid || areas.size() > polygons.size()) {
     return false;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/site.hpp"
-#include "gis/rectangle.hpp"
+#include "gis/point_window.hpp"
 
 namespace thawslide::gis {
 

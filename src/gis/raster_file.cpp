@@ -16,7 +16,7 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/spatial_reference.hpp"
+#include "gis/gdal_types.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
@@ -279,7 +279,7 @@ Rectangle RasterFile::extent() const {
 
 Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   Raster raster = read_points(window ? points_in(layout_, *window) : PointWindow{0, 0, layout_.columns, layout_.rows});
-  const bool any = std::any_of(raster.values.begin(), raster.values.end(), [](double v) { return !std::isnan(v); });
+  const bool any = std::ranges::any_of(raster.values, [](double v) { return !std::isnan(v); });
   if (!any) {
     throw UserError("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
                     window ? " in the area asked for" : "");

@@ -7,7 +7,6 @@
 
 #include "base/raster.hpp"
 #include "gis/point_window.hpp"
-#include "gis/rectangle.hpp"
 #include "gis/value_unit.hpp"
 
 namespace thawslide::gis {

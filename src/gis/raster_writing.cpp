@@ -7,8 +7,8 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
+#include "gis/gdal_types.hpp"
 #include "gis/raster_file.hpp"
-#include "gis/spatial_reference.hpp"
 
 namespace thawslide::gis {
 

@@ -14,8 +14,8 @@
 #include "config/input_limits.hpp"
 #include "gis/case_inputs.hpp"
 #include "gis/gdal_messages.hpp"
+#include "gis/gdal_types.hpp"
 #include "gis/reprojection.hpp"
-#include "gis/spatial_reference.hpp"
 
 namespace thawslide::gis {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gis/rectangle.hpp"
+#include "gis/point_window.hpp"
 
 namespace thawslide::gis {
 

@@ -43,7 +43,7 @@ Raster cropped(const Raster& thickness, const Raster& ground) {
 
 void check_volume(const config::Case& parameters, const std::string& name, const Raster& thickness) {
   const double volume = volume_of(thickness);
-  const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
+  const double most = *std::ranges::max_element(thickness.values);
   if (!(volume > 0.0)) {
     fail_at(parameters, key_of(name, "thickness"),
             "{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
@@ -67,7 +67,7 @@ void warn_of_thick_release(const std::string& name, const config::Release& relea
                            std::vector<std::string>& warnings) {
   constexpr double fraction_of_width = 0.5;
   const double width = std::sqrt(release.area);
-  const double most = *std::max_element(release.thickness.values.begin(), release.thickness.values.end());
+  const double most = *std::ranges::max_element(release.thickness.values);
   if (most > fraction_of_width * width) {
     warnings.push_back(fmt::format(
         "the release of the body {} is up to {} m thick and, by its area, {} m wide: is the thickness in metres?", name,

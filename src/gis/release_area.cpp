@@ -96,7 +96,7 @@ void check_size(const config::Case& parameters, const std::string& body, double 
 }
 
 void warn_of_narrow(const std::string& body, const Raster& fraction, std::vector<std::string>& warnings) {
-  const double most = *std::max_element(fraction.values.begin(), fraction.values.end());
+  const double most = *std::ranges::max_element(fraction.values);
   if (most < 0.995) {
     warnings.push_back(
         fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole. It is spread "
@@ -191,7 +191,7 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
       with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
   const auto& values = area.source.values;
   check_area(parameters, name, extent, ground,
-             std::any_of(values.begin(), values.end(), [](double value) { return value > thickest; }));
+             std::ranges::any_of(values, [](double value) { return value > thickest; }));
   check_taper(parameters, name, extent, ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
   area.fraction = with_error_location(parameters, key, [&] {

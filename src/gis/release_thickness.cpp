@@ -1,7 +1,5 @@
 #include "gis/release_thickness.hpp"
 
-#include <cmath>
-
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "gis/case_inputs.hpp"

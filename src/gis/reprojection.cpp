@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
 #include "gis/gdal_messages.hpp"
+#include "gis/gdal_types.hpp"
 #include "gis/reference_system.hpp"
-#include "gis/spatial_reference.hpp"
 
 namespace thawslide::gis {
 

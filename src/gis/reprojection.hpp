@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gis/rectangle.hpp"
+#include "gis/point_window.hpp"
 
 namespace thawslide::gis {
 

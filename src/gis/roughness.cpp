@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -183,8 +182,8 @@ double quantile_of_known(std::vector<double> values, double fraction) {
 // Noise of the tiles in the direction in which it is smallest (0) or second smallest (1).
 double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size_t direction, double fraction) {
   std::vector<double> values;
-  std::transform(tiles.begin(), tiles.end(), std::back_inserter(values),
-                 [&](const std::array<double, 2>& tile) { return tile[direction]; });
+  std::ranges::transform(tiles, std::back_inserter(values),
+                         [&](const std::array<double, 2>& tile) { return tile[direction]; });
   return quantile_of_known(std::move(values), fraction);
 }
 
@@ -248,8 +247,7 @@ Raster short_waves(const Raster& raster, const Rectangle& rectangle, double cell
   Raster waves = points_within(raster, rectangle.widened(reach, reach));
   for (int k = 0; k < times_of_short_waves && !waves.values.empty(); ++k) {
     const Raster smooth = smoothed(waves, width);
-    std::transform(waves.values.begin(), waves.values.end(), smooth.values.begin(), waves.values.begin(),
-                   std::minus<>());
+    std::ranges::transform(waves.values, smooth.values, waves.values.begin(), std::minus<>());
   }
   return waves;
 }

@@ -9,10 +9,10 @@
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "gis/coverage.hpp"
+#include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
-#include "gis/resampling.hpp"
 
 namespace thawslide::gis {
 
@@ -179,7 +179,7 @@ Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, c
   };
   for (Polygon& polygon : transformed) {
     transform(polygon.outline);
-    std::for_each(polygon.holes.begin(), polygon.holes.end(), transform);
+    std::ranges::for_each(polygon.holes, transform);
   }
   return transformed;
 }

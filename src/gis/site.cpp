@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "gis/bed.hpp"
 #include "gis/case_inputs.hpp"
 #include "gis/dem.hpp"
 #include "gis/point_window.hpp"
@@ -68,7 +67,7 @@ Raster without_cut_bodies(const config::Case& parameters, const std::map<std::st
 std::vector<std::string> each_once(const std::vector<std::string>& warnings) {
   std::vector<std::string> once;
   for (const std::string& warning : warnings) {
-    if (std::find(once.begin(), once.end(), warning) == once.end()) {
+    if (std::ranges::find(once, warning) == once.end()) {
       once.push_back(warning);
     }
   }

@@ -1,4 +1,4 @@
-// Extent of the substrates of a case, from polygons and from rasters of codes.
+// Maps of the ground of a case, from polygons and rasters: extent of the substrates, and depth of the erodible bed.
 #pragma once
 
 #include <map>
@@ -17,5 +17,16 @@ namespace thawslide::gis {
 [[nodiscard]] std::map<std::string, config::SubstrateArea> load_substrates(const config::Case& parameters,
                                                                            const Dem& ground,
                                                                            std::vector<std::string>& warnings);
+
+// Values at the points of the ground; empty if no raster is specified. Throws UserError for a raster with no data in
+// the domain, or with a depth below 0 or above grid.cell.
+[[nodiscard]] Raster load_bed_depth(const config::Case& parameters, const Dem& ground,
+                                    std::vector<std::string>& warnings);
+
+// Means over the cells of the columns of nodes, by the exact area of the polygons in each cell and in the domain; empty
+// if no polygons are specified. Throws UserError for polygons outside the domain, for a depth that is missing, below 0
+// or above grid.cell, and for polygons of different depths that overlap.
+[[nodiscard]] Raster load_bed_in_columns(const config::Case& parameters, const Dem& ground,
+                                         std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

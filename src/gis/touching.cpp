@@ -10,8 +10,6 @@
 #include "gis/case_inputs.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
-#include "gis/release_thickness.hpp"
-#include "gis/sampling.hpp"
 
 namespace thawslide::gis {
 

@@ -17,10 +17,9 @@
 #include "config/problems.hpp"
 #include "gis/data_set.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/geometry.hpp"
+#include "gis/gdal_types.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
-#include "gis/spatial_reference.hpp"
 
 namespace thawslide::gis {
 
@@ -279,7 +278,7 @@ class LayerReader {
   }
 
   std::string name_of(const OGRFeature& source) const {
-    const auto found = std::find(result_.attributes.begin(), result_.attributes.end(), "name");
+    const auto found = std::ranges::find(result_.attributes, "name");
     const int index = found == result_.attributes.end() ? source.GetFieldIndex("name")
                                                         : static_cast<int>(found - result_.attributes.begin());
     return index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? as_utf8(source.GetFieldAsString(index)) : "";

@@ -107,4 +107,11 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   write_any_attribute(object, name, type, space, text.data());
 }
 
+Handle make_vtk_root(hid_t file) {
+  Handle root = make_group(file, "VTKHDF");
+  write_attribute(root, "Version", std::vector<std::int64_t>{2, 0});
+  write_attribute(root, "Type", std::string("PolyData"));
+  return root;
+}
+
 }  // namespace thawslide::io::hdf5

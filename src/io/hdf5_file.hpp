@@ -76,4 +76,8 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
 // Creation properties of a dataset without time stamps.
 Handle dataset_creation();
 
+// Kinds of cells of VTKHDF files (version 2, PolyData), and their root group: shared by snapshots and their index.
+inline constexpr const char* cell_kinds[] = {"Vertices", "Lines", "Polygons", "Strips"};
+Handle make_vtk_root(hid_t file);
+
 }  // namespace thawslide::io::hdf5

@@ -47,7 +47,7 @@ class KeptRows {
  public:
   KeptRows(std::string_view file, const std::string& header, double last_time)
       : text_(header + "\n"), has_header_(file.substr(0, text_.size()) == text_) {
-    const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+    const auto columns = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
     for (std::size_t line = has_header_ ? text_.size() : file.find('\n') + 1; line < file.size();) {
       const std::size_t end = std::min(file.find('\n', line), file.size());
       const std::optional<double> time = time_of(file.substr(line, end - line), columns);

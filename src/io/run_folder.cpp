@@ -6,16 +6,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
-#include "io/run_lock.hpp"
 
 namespace thawslide::io {
 
@@ -154,11 +151,11 @@ bool contains_only_a_start(const fs::path& folder) {
     return false;
   }
   const std::vector<fs::path> entries = entries_of(folder);
-  return std::all_of(entries.begin(), entries.end(), [](const fs::path& entry) {
+  return std::ranges::all_of(entries, [](const fs::path& entry) {
     const std::string name = entry.filename().string();
     if (name == "snapshots" || name == "inputs") {
       const std::vector<fs::path> within = is_real_folder(entry) ? entries_of(entry) : std::vector{entry};
-      return name == "inputs" || std::all_of(within.begin(), within.end(), is_unfinished);
+      return name == "inputs" || std::ranges::all_of(within, is_unfinished);
     }
     return name == lock_name || name == "case.toml" || is_unfinished(entry) ||
            (name == "history.csv" && fs::is_regular_file(entry) && fs::file_size(entry) == 0);

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "io/hdf5_file.hpp"
-#include "io/vtkhdf.hpp"
 
 namespace thawslide::io {
 
@@ -47,8 +46,7 @@ template <int Dim>
 std::vector<std::size_t> order_by_id(const mpm::Particles<Dim>& particles) {
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return particles.id(a) < particles.id(b); });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return particles.id(a) < particles.id(b); });
   return order;
 }
 
@@ -79,7 +77,7 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
     numbers += field.components * count;
   }
   const hdf5::MemoryFile file(numbers * sizeof(double));
-  const hdf5::Handle root = vtkhdf::make_root(file.root());
+  const hdf5::Handle root = hdf5::make_vtk_root(file.root());
   hdf5::write_attribute(root, "time", snapshot.time);
   hdf5::write_attribute(root, "step", snapshot.step);
   const auto points = static_cast<std::int64_t>(count);
@@ -87,8 +85,8 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
   hdf5::write_dataset(root, "Points", {count, 3}, snapshot.points.data());
   std::vector<std::int64_t> ascending(count + 1);
   std::iota(ascending.begin(), ascending.end(), std::int64_t{0});
-  for (const char* kind : vtkhdf::cell_kinds) {
-    const std::size_t cells = kind == vtkhdf::cell_kinds[0] ? count : 0;
+  for (const char* kind : hdf5::cell_kinds) {
+    const std::size_t cells = kind == hdf5::cell_kinds[0] ? count : 0;
     const auto number = static_cast<std::int64_t>(cells);
     const hdf5::Handle group = hdf5::make_group(root, kind);
     hdf5::write_dataset(group, "NumberOfCells", {1}, &number);

@@ -8,7 +8,7 @@
 #include "base/clocks.hpp"
 #include "config/input_limits.hpp"
 #include "io/files.hpp"
-#include "io/vtkhdf.hpp"
+#include "io/hdf5_file.hpp"
 
 namespace thawslide::io {
 
@@ -207,8 +207,8 @@ void SnapshotSeries::write_virtual(std::int64_t parent, const std::string& name,
 void SnapshotSeries::write_cells(std::int64_t root, const std::vector<std::int64_t>& counts) const {
   const hsize_t steps = entries_.size();
   const std::vector<std::int64_t> zeros(entries_.size(), 0);
-  for (const char* kind : vtkhdf::cell_kinds) {
-    const bool vertices = kind == vtkhdf::cell_kinds[0];
+  for (const char* kind : hdf5::cell_kinds) {
+    const bool vertices = kind == hdf5::cell_kinds[0];
     const hdf5::Handle group = hdf5::make_group(root, kind);
     const auto& numbers = vertices ? counts : zeros;
     hdf5::write_dataset(group, "NumberOfCells", {steps}, numbers.data());
@@ -257,7 +257,7 @@ void SnapshotSeries::write_index() {
     return;
   }
   const hdf5::MemoryFile file;
-  const hdf5::Handle root = vtkhdf::make_root(file.root());
+  const hdf5::Handle root = hdf5::make_vtk_root(file.root());
   std::vector<std::int64_t> counts;
   for (const Entry& entry : entries_) {
     counts.push_back(static_cast<std::int64_t>(entry.particles));

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
 #include "base/error.hpp"

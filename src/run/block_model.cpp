@@ -25,7 +25,7 @@ void report_valley_factor(const std::vector<sim::HistoryRow>& rows, Observer& ob
   const auto narrower = [](const sim::HistoryRow& a, const sim::HistoryRow& b) {
     return value_of(a, "valley_factor") < value_of(b, "valley_factor");
   };
-  const sim::HistoryRow& narrowest = *std::max_element(rows.begin(), rows.end(), narrower);
+  const sim::HistoryRow& narrowest = *std::ranges::max_element(rows, narrower);
   const double factor = value_of(narrowest, "valley_factor");
   if (factor > least_valley_factor) {
     observer.line(
@@ -63,8 +63,8 @@ Motion block_along_path(const config::Case& parameters, Warnings& warnings, Obse
         section.off_steepest);
   }
   const auto first_beyond = [&](double end) {
-    return std::find_if(rows.begin(), rows.end(),
-                        [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
+    return std::ranges::find_if(rows,
+                                [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
   };
   if (section.pit) {
     const auto beyond = first_beyond(section.pit->along);
@@ -104,7 +104,7 @@ Motion block_on_profile(const config::Case& parameters, Observer& observer) {
   }
   const config::ProfileTable profile = config::read_profile(parameters.terrain.file);
   const double first = profile.distance.front(), last = profile.distance.back();
-  const auto beyond = std::find_if(rows.begin(), rows.end(), [&](const sim::HistoryRow& row) {
+  const auto beyond = std::ranges::find_if(rows, [&](const sim::HistoryRow& row) {
     const double front = value_of(row, "front_position_m");
     return front < first || front > last;
   });

@@ -53,7 +53,7 @@ std::vector<fs::path> input_files(const config::Case& parameters) {
 void require_readable_inputs(const config::Case& parameters) {
   for (const fs::path& input : input_files(parameters)) {
     const auto is_it = [&input](const config::CaseFile& each) { return each.file == input; };
-    const bool was_read = std::any_of(parameters.case_files.begin(), parameters.case_files.end(), is_it);
+    const bool was_read = std::ranges::any_of(parameters.case_files, is_it);
     if (!was_read && access(input.c_str(), R_OK) != 0) {
       throw UserError("{} cannot be read: {}. A run keeps a copy of it.", input.string(), std::strerror(errno));
     }

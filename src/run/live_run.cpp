@@ -9,8 +9,8 @@
 #include "config/describe.hpp"
 #include "config/notices.hpp"
 #include "io/checkpoint.hpp"
-#include "run/device_choice.hpp"
 #include "run/resume_checks.hpp"
+#include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
 #include "run/schedule.hpp"
 #include "run/setup.hpp"
@@ -124,7 +124,7 @@ class LiveRunOf final : public LiveRun {
 
   [[nodiscard]] Raster map(const std::string& name) const override {
     const std::vector<sim::MapKind>& kinds = sim::map_kinds();
-    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return name == kind.name; });
+    const auto found = std::ranges::find_if(kinds, [&](const auto& kind) { return name == kind.name; });
     if (records_.maps() == nullptr || found == kinds.end()) {
       throw UserError("no map {}. Only 3D cases have maps; `maps` lists them.", name);
     }

@@ -1,7 +1,6 @@
 // maps/ of a 3D run: GeoTIFF maps, a GeoPackage of areas and lines, and their QGIS styles.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>

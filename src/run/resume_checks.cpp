@@ -10,7 +10,6 @@
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"
-#include "io/checkpoint.hpp"
 #include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "run/input_files.hpp"
@@ -52,7 +51,7 @@ void require_same_changes(const fs::path& folder, const std::vector<std::string>
   if (!missing.empty()) {
     missing.insert(missing.end(), sets.begin(), sets.end());
     std::vector<std::string> words(missing.size());
-    std::transform(missing.begin(), missing.end(), words.begin(), shell_quote);
+    std::ranges::transform(missing, words.begin(), shell_quote);
     throw UserError(
         "the last resume was interrupted before its change took effect. Specify it again: thawslide resume {} --set {}",
         shell_quote(folder.string()), fmt::join(words, " --set "));
@@ -63,8 +62,8 @@ void require_same_changes(const fs::path& folder, const std::vector<std::string>
 void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
                                const std::string& of_checkpoint) {
   const std::string sha256 = io::sha256_hex(of_checkpoint);
-  const bool is_known = std::any_of(facts.parts.begin(), facts.parts.end(),
-                                    [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
+  const bool is_known =
+      std::ranges::any_of(facts.parts, [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
   if (!is_known) {
     const std::vector<std::string> differences = config::differences(of_checkpoint, now);
     throw UserError(
@@ -108,7 +107,7 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
     const auto is_copy = [&file](const io::InputFile& input) {
       return fs::path(input.copy).filename() == file.filename();
     };
-    if (file.parent_path().filename() == "inputs" && std::none_of(inputs.begin(), inputs.end(), is_copy)) {
+    if (file.parent_path().filename() == "inputs" && std::ranges::none_of(inputs, is_copy)) {
       changed.push_back(file.string() + " was added and must be removed");
     }
   }

@@ -1,4 +1,4 @@
-// Estimated cost of a run, from its first steps.
+// Estimated cost of a run, from its first steps, and its device: --device.
 #pragma once
 
 #include <limits>
@@ -28,5 +28,20 @@ template <int Dim>
 
 // "3 min of processor time", and whether the machine is busy.
 [[nodiscard]] std::string text_of(const RunCost& cost);
+
+// GPU that this program can use.
+struct GpuFacts {
+  std::string name;
+  std::string unavailable_reason;  // reason why the GPU cannot be used; empty: it can
+  double free = 0.0;               // memory before the run [bytes]
+  double used = 0.0;               // by the run after its first steps [bytes]
+  double seconds = 0.0;            // wall-clock time of the run, estimated from the first steps
+};
+[[nodiscard]] GpuFacts detect_gpu();
+
+// Selects a GPU for the steps if requested: "gpu", or "auto" if there is one; "cpu" changes nothing. Returns the device
+// as text; empty for the CPU. Throws UserError with the reason if the GPU is unavailable.
+template <int Dim>
+std::string use_device(const std::string& device, sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::run

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <new>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
@@ -136,7 +135,7 @@ void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>
                 thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
   const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
-    return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
+    return std::ranges::find_if(row, [&](const auto& entry) { return entry.first == name; })->second;
   };
   observer.line("{}: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}", sim::when_text(output.end_state()),
                 value("mean_velocity_m_s"), value("mean_displacement_m"),

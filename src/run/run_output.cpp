@@ -5,7 +5,6 @@
 #include "base/state_numbers.hpp"
 #include "config/describe.hpp"
 #include "io/checkpoint.hpp"
-#include "io/history_writer.hpp"
 #include "io/snapshot.hpp"
 #include "run/input_files.hpp"
 #include "run/state.hpp"

@@ -1,20 +1,289 @@
 #include "run/start.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "base/shell_quote.hpp"
+#include "base/state_numbers.hpp"
+#include "config/case_changes.hpp"
+#include "config/describe.hpp"
 #include "config/input_limits.hpp"
 #include "config/notices.hpp"
+#include "config/read_case.hpp"
+#include "io/checkpoint.hpp"
+#include "io/files.hpp"
+#include "io/history_writer.hpp"
 #include "io/run_folder.hpp"
-#include "run/device_choice.hpp"
+#include "io/run_lock.hpp"
 #include "run/disk_need.hpp"
 #include "run/input_files.hpp"
+#include "run/resume_checks.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
+#include "run/schedule.hpp"
 #include "run/setup.hpp"
+#include "run/state.hpp"
 
 namespace thawslide::run {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Leaves a finished run unchanged, also in a read-only folder.
+ExitCode leave_finished(const fs::path& folder, const io::Provenance& facts, Observer& observer) {
+  const fs::path file = folder / "case.toml";
+  const bool is_known = io::has_checkpoint(folder);
+  if (fs::exists(file) && io::sha256_of_file(file) != facts.parts.back().case_sha256) {
+    const std::vector<std::string> changes =
+        is_known ? config::differences(io::read_file(file), io::case_of(io::newest_checkpoint(folder)))
+                 : std::vector<std::string>{"its SHA-256 is not that of run.json"};
+    if (!changes.empty()) {
+      throw UserError("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
+                      facts.simulated_time, file.string(), fmt::join(changes, "; "),
+                      is_known ? advice_on(folder, facts, changes, "Put that back, or run the case again.")
+                               : "There is no checkpoint to continue from: run the case again.");
+    }
+  }
+  observer.line("{} has reached its end at {:g} s{}; nothing to do", folder.string(), facts.simulated_time,
+                facts.message.empty() ? "" : ": " + facts.message);
+  if (!is_known) {
+    observer.line("note: {} has no checkpoint, so --end cannot extend it", folder.string());
+  }
+  return ExitCode::done;
+}
+
+// State and case with which a run continues.
+struct Continuation {
+  config::Case parameters;
+  std::string case_text;       // for case.toml
+  io::Provenance earlier;      // contents of run.json, with the part that begins
+  double earlier_end = 0.0;    // time.end before the change [s]
+  std::string device = "cpu";  // --device
+};
+
+Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
+  config::require_changeable(sets);
+  Continuation next{{}, io::read_file(folder / "case.toml"), std::move(facts)};
+  try {
+    next.parameters = config::read_case(folder, sets);
+  } catch (const UserError& error) {
+    report_changed_copy(folder, next.earlier.inputs, error.what());
+    throw;
+  }
+  next.earlier_end = next.parameters.time.end;
+  if (!sets.empty()) {
+    const config::Case before = config::read_case(folder);
+    require_same_guards(before, next.parameters);
+    next.earlier_end = before.time.end;
+    next.case_text = config::resolved_toml(next.parameters, "inputs");
+  }
+  io::RunPart part = io::part_of_this_process();
+  part.changes = sets;
+  part.case_sha256 = io::sha256_hex(next.case_text);
+  next.earlier.parts.push_back(std::move(part));
+  return next;
+}
+
+// run.json must record a change first, so that no change is unrecorded if the process is killed in between.
+void apply_changes(const fs::path& folder, const Continuation& next, Observer& observer) {
+  if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
+    write_file_atomically(folder / "case.toml", next.case_text);
+    observer.line("changed: {}", fmt::join(changes, ", "));
+  }
+}
+
+// Reports an error that a change causes in an unchanged key at its location in the run's case.toml, which is not for
+// editing.
+template <int Dim>
+std::unique_ptr<sim::Simulation<Dim>> simulation_of(const fs::path& folder, const Continuation& next,
+                                                    Warnings& warnings) {
+  try {
+    return std::make_unique<sim::Simulation<Dim>>(next.parameters, read_map_files(next.parameters, warnings));
+  } catch (const UserError& error) {
+    if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
+      throw;
+    }
+    throw UserError("{} Specify changes of a run on the command line: thawslide resume {} --set KEY=VALUE.",
+                    error.what(), shell_quote(folder.string()));
+  }
+}
+
+template <int Dim>
+ExitCode restart_from_begin(const fs::path& folder, const Continuation& next, Observer& observer) {
+  Warnings warnings(&observer);
+  sim::Simulation<Dim> simulation(next.parameters, read_map_files(next.parameters, warnings));
+  use_device<Dim>(next.device, simulation);
+  observer.line("{} was cut off before its first checkpoint; it starts again", folder.string());
+  for (const std::string& warning : next.earlier.parts.back().warnings) {
+    observer.line("warning: {}", warning);
+  }
+  RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
+  apply_changes(folder, next, observer);
+  warnings.add(config::notices(next.parameters));
+  return start_and_run<Dim>(simulation, output, folder, observer);
+}
+
+// True if a finished run continues with the changes. falls_back: its last checkpoint is lost. Throws UserError if the
+// run cannot continue and the changes would be lost.
+template <int Dim>
+bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
+                                sim::Simulation<Dim>& simulation, Observer& observer) {
+  const std::vector<std::string>& changes = next.earlier.parts.back().changes;
+  const bool is_end_alone = config::keys_of(changes) == std::set<std::string>{"time.end"};
+  if (has_reached_end(simulation.time(), simulation.last_step(), next.parameters.time.end)) {
+    if (!changes.empty() && !is_end_alone) {
+      throw UserError(
+          "{} has reached its end at {:g} s: no step is left that could take {}. Give a later end too: --end T.",
+          folder.string(), simulation.time(), fmt::join(changes, ", "));
+    }
+    observer.line("{} has reached its end at {:g} s; nothing to do", folder.string(), simulation.time());
+    return false;
+  }
+  if (simulation.ends_at_rest()) {
+    if (changes.empty() || is_end_alone) {
+      observer.line("{} has {} {:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0", folder.string(),
+                    simulation.moved_mass().has_moved ? "come to rest at" : "not moved until", simulation.time());
+      return false;
+    }
+    simulation.restart_rest_time();
+  } else if (next.earlier.message.rfind(sim::at_rest, 0) != 0 && next.earlier.message.rfind(sim::not_moved, 0) != 0 &&
+             !has_reached_end(simulation.time(), simulation.last_step(), next.earlier_end) && !falls_back &&
+             !next.earlier.message.empty()) {
+    throw UserError(
+        "{} has ended, and no particles are left to continue with: {}. Run the case again, in a larger domain.",
+        folder.string(), next.earlier.message);
+  }
+  return true;
+}
+
+// Renames a damaged checkpoint, because the next one would otherwise replace the valid one and keep the damaged one.
+// Returns a text with the new name.
+std::string keep_damaged(const fs::path& damaged) {
+  if (damaged.empty()) {
+    return "";
+  }
+  const fs::path aside = io::name_for_damaged(damaged);
+  std::error_code error;
+  fs::rename(damaged, aside, error);
+  if (error) {
+    throw WriteError(
+        "{} cannot be renamed to {}: {}. Make the run's folder one that can be written, then resume again.",
+        damaged.string(), aside.filename().string(), error.message());
+  }
+  return fmt::format("it is kept as {}, and ", aside.filename().string());
+}
+
+template <int Dim>
+ExitCode continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next,
+                      Observer& observer) {
+  Warnings warnings(&observer);
+  const auto made = simulation_of<Dim>(folder, next, warnings);
+  sim::Simulation<Dim>& simulation = *made;
+  std::vector<double> scalars;
+  const NamedNumbers blocks = io::read_checkpoint<Dim>(checkpoint, simulation.particles(), scalars);
+  try {
+    restore_state<Dim>(simulation, scalars, blocks);
+  } catch (const UserError& error) {
+    throw UserError("{}: {}", checkpoint.file.string(), error.what());
+  }
+  use_device<Dim>(next.device, simulation);
+  const double end = next.parameters.time.end;
+  const double reached_before = std::max(next.earlier.simulated_time,
+                                         io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
+  // A failed run is simulated again from its checkpoint, and may end before the time of failure.
+  const bool failed = next.earlier.status == "failed";
+  const double reached = failed ? simulation.time() : reached_before;
+  if (end < next.earlier_end) {
+    require_end_ahead(end, reached, simulation.last_step());
+  }
+  if (failed && next.earlier.parts.back().changes.empty()) {
+    observer.line(
+        "warning: the run failed, and resume changes nothing: it will probably fail again. Change a key with --set "
+        "KEY=VALUE, or end before the failure with --end T");
+  }
+  if (next.earlier.status == "done" &&
+      !applies_changes_at_its_end<Dim>(folder, next, !checkpoint.warning.empty(), simulation, observer)) {
+    return ExitCode::done;
+  }
+  if (!checkpoint.warning.empty()) {
+    next.earlier.parts.back().warnings.push_back(fmt::format("{}; {}the run continues from the previous checkpoint",
+                                                             checkpoint.warning, keep_damaged(checkpoint.damaged)));
+  }
+  RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
+  for (const std::string& warning : output.warnings_of_part()) {
+    observer.line("warning: {}", warning);
+  }
+  observer.line("continuing from t = {:g} s{}", simulation.time(),
+                reached_before > simulation.time()
+                    ? fmt::format("; it had reached {:g} s: rows and snapshots after {:g} s are written again",
+                                  reached_before, simulation.time())
+                    : "");
+  apply_changes(folder, next, observer);
+  warnings.add(config::notices(next.parameters));
+  return run_to_end<Dim>(simulation, output, folder, observer);
+}
+
+void require_run_folder(const fs::path& folder) {
+  if (!fs::exists(folder / "run.json")) {
+    throw UserError(
+        "{} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed, or run the case "
+        "again.",
+        folder.string());
+  }
+}
+
+// Copies a run while it holds the run's lock, so that no process changes the files meanwhile. A folder that this user
+// cannot write needs no lock against their other processes, and cannot have one. A failed copy is removed.
+void copy_run(const fs::path& folder, const fs::path& copy, const std::function<void()>& remove_copy) {
+  std::optional<io::RunLock> lock;
+  if (access(folder.c_str(), W_OK) == 0) {
+    lock.emplace(folder);
+  }
+  io::make_folder(copy);
+  try {
+    io::copy_files_of_run(folder, copy);
+  } catch (...) {
+    remove_copy();
+    throw;
+  }
+}
+
+// Continues a copy of the run. The copy is removed again if it cannot be continued.
+ExitCode resume_copy(const ResumeOptions& options, Observer& observer) {
+  config::require_changeable(options.sets);
+  if (const io::AtWork at_work = io::process_at_work(options.folder); !at_work.process.empty()) {
+    throw UserError("{} {} written by {}. Stop the run before a copy of it is continued.", options.folder.string(),
+                    at_work.is_known ? "is being" : "may be being", at_work.process);
+  }
+  io::require_usable(options.output, false);
+  const bool is_new = !fs::exists(options.output);
+  const auto remove_copy = [&] {
+    io::remove_files_of_run(options.folder, options.output);
+    if (is_new && fs::is_empty(options.output)) {
+      io::remove_or_throw(options.output);
+    }
+  };
+  copy_run(options.folder, options.output, remove_copy);
+  observer.line("{} is copied to {}", options.folder.string(), options.output.string());
+  try {
+    return resume_run({options.output, options.sets, options.device}, observer);
+  } catch (const UserError&) {
+    remove_copy();
+    throw;
+  }
+}
+
+}  // namespace
 
 ExitCode start_run(const config::Case& parameters, const StartOptions& options, Observer& observer) {
   const fs::path folder = options.folder.empty() ? usual_run_folder(parameters) : options.folder;
@@ -41,6 +310,48 @@ ExitCode start_run(const config::Case& parameters, const StartOptions& options, 
                   thread_count() == 1 ? "" : "s", device.empty() ? "" : " and " + device);
     return start_and_run<Dim>(simulation, output, folder, observer);
   });
+}
+
+ExitCode resume_run(const ResumeOptions& options, Observer& observer) {
+  const fs::path& folder = options.folder;
+  const std::vector<std::string>& sets = options.sets;
+  require_run_folder(folder);
+  if (!options.output.empty()) {
+    return resume_copy(options, observer);
+  }
+  if (sets.empty() && io::process_at_work(folder).process.empty()) {
+    const io::Provenance facts = io::read_provenance(folder);
+    if (facts.status == "done") {
+      return leave_finished(folder, facts, observer);
+    }
+  }
+  const io::RunLock lock(folder);
+  io::require_own_folders(folder, {"snapshots", "inputs"});
+  const io::Provenance facts = io::read_provenance(folder);
+  io::WholeCheckpoint checkpoint;
+  const bool has_checkpoint = io::has_checkpoint(folder);
+  if (has_checkpoint) {
+    checkpoint = io::newest_checkpoint(folder);
+    require_same_case(folder, facts, io::case_of(checkpoint), sets, observer);
+  } else {
+    require_no_more_than_a_start(folder, facts);
+    require_case_of_start(folder, facts, sets);
+  }
+  for (const char* path : {".", "inputs", "snapshots", "maps"}) {
+    io::remove_unfinished_files(folder / path);
+  }
+  Continuation next = continuation_of(folder, sets, facts);
+  next.device = options.device;
+  if (next.parameters.general.dimension == 3) {
+    io::require_own_folders(folder, {"maps"});
+  }
+  require_same_inputs(folder, facts.inputs, next.parameters);
+  next.earlier.parts.back().warnings = changed_originals(facts.inputs);
+  return with_dimension(next.parameters.general.dimension,
+                        [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
+                          return has_checkpoint ? continue_run<Dim>(folder, checkpoint, next, observer)
+                                                : restart_from_begin<Dim>(folder, next, observer);
+                        });
 }
 
 }  // namespace thawslide::run

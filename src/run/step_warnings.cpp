@@ -89,8 +89,8 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
   const double first = boils ? unphysical_temperature : boiling;
   if (boils && !is_dry_) {
     const auto segments = columns->segments();
-    const auto dry = std::count_if(segments.begin(), segments.end(),
-                                   [](const auto& segment) { return has_boiled_dry(segment.column); });
+    const auto dry =
+        std::ranges::count_if(segments, [](const auto& segment) { return has_boiled_dry(segment.column); });
     if (dry > 0) {
       is_dry_ = true;
       passed_limit_ = std::max({passed_limit_, first, limit_below(hottest, first)});

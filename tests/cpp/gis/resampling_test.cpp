@@ -1,6 +1,4 @@
 // Resampled points, tapers and values between points.
-#include "gis/resampling.hpp"
-
 #include <numeric>
 
 #include "gis/filters.hpp"

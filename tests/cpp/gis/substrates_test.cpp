@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "config/read_case.hpp"
-#include "gis/bed.hpp"
 #include "sim/records/history.hpp"
 #include "sim/setup/substrates.hpp"
 #include "sim/simulation.hpp"
