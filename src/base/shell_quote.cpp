@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 namespace thawslide {
@@ -13,28 +14,20 @@ bool is_control(unsigned char letter) { return letter < 0x20 || letter == 0x7f; 
 
 // Bytes beyond ASCII have no special meaning in a shell.
 bool is_plain(unsigned char letter) {
-  constexpr std::string_view signs = "_-./:=@%+,";
-  const bool is_letter = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter >= 0x80;
-  return is_letter || (letter >= '0' && letter <= '9') || signs.find(static_cast<char>(letter)) != signs.npos;
+  return letter >= 0x80 || std::isalnum(letter) != 0 ||
+         std::string_view("_-./:=@%+,").find(static_cast<char>(letter)) != std::string_view::npos;
 }
 
-// 'it'\''s'
-std::string in_quotes(const std::string& word) {
-  std::string quoted = "'";
-  for (const char letter : word) {
-    quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  }
-  return quoted + "'";
-}
-
-// $'two\012lines': control characters are written as octal escapes, because they would affect a terminal.
-std::string with_escapes(const std::string& word) {
-  std::string quoted = "$'";
+// 'it'\''s', or $'two\012lines': control characters are written as octal escapes, because they would affect a terminal.
+std::string in_quotes(const std::string& word, bool has_control) {
+  std::string quoted = has_control ? "$'" : "'";
   for (const char letter : word) {
     const auto byte = static_cast<unsigned char>(letter);
-    quoted += is_control(byte)                   ? fmt::format("\\{:03o}", static_cast<unsigned>(byte))
-              : letter == '\'' || letter == '\\' ? std::string{'\\', letter}
-                                                 : std::string(1, letter);
+    const bool is_escaped = letter == '\'' || (has_control && letter == '\\');
+    quoted += is_control(byte) ? fmt::format("\\{:03o}", static_cast<unsigned>(byte))
+              : !is_escaped    ? std::string(1, letter)
+              : has_control    ? std::string{'\\', letter}
+                               : "'\\''";
   }
   return quoted + "'";
 }
@@ -46,7 +39,7 @@ std::string shell_quote(const std::string& text) {
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) {
     return word;
   }
-  return std::any_of(word.begin(), word.end(), is_control) ? with_escapes(word) : in_quotes(word);
+  return in_quotes(word, std::any_of(word.begin(), word.end(), is_control));
 }
 
 }  // namespace thawslide

@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <optional>
+#include <vector>
 
 #include "base/raster_sampling.hpp"
 #include "base/text.hpp"
@@ -38,98 +39,74 @@ struct Apart {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;  // of the adjacent ground [m]
 };
 
-class Patches {
- public:
-  explicit Patches(const Raster& ground) : ground_(ground), seen_(ground.values.size(), 0) {}
+struct Cell {
+  int column = 0, row = 0;
+};
 
-  std::map<double, Apart> apart() {
-    for_each_point(ground_, [&](int column, int row, double) {
-      if (begins_patch(column, row)) {
-        add_patch(column, row);
+bool is_cliff(double one, double other, double distance) {
+  return std::abs(one - other) > std::max(least_step, steep * distance);
+}
+
+// Calls work(cell, distance) for the known neighbours of a point.
+template <class Work>
+void for_each_neighbour(const Raster& ground, const Cell& cell, const Work& work) {
+  constexpr std::array<Cell, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  for (const Cell& direction : directions) {
+    const int column = cell.column + direction.column, row = cell.row + direction.row;
+    const bool inside = column >= 0 && column < ground.columns && row >= 0 && row < ground.rows;
+    if (inside && !std::isnan(ground.at(column, row))) {
+      work(Cell{column, row}, direction.row == 0 ? ground.cell_x : ground.cell_y);
+    }
+  }
+}
+
+// Patch of all points of the same value connected to one; nothing if its surrounding ground is not all cliffs.
+std::optional<Apart> patch_at(const Raster& ground, const Cell& first, std::vector<char>& seen) {
+  const double height = ground.at(first.column, first.row);
+  Apart patch{.x = ground.x_of(first.column), .y = ground.y_of(first.row)};
+  bool cliffs_about = true;
+  std::vector<Cell> open{first};
+  seen[ground.index(first.column, first.row)] = 1;
+  while (!open.empty()) {
+    const Cell cell = open.back();
+    open.pop_back();
+    ++patch.points;
+    for_each_neighbour(ground, cell, [&](const Cell& next, double distance) {
+      const double other = ground.at(next.column, next.row);
+      char& is_seen = seen[ground.index(next.column, next.row)];
+      if (other != height) {
+        cliffs_about = cliffs_about && is_cliff(height, other, distance);
+        patch.lowest = std::min(patch.lowest, other);
+        patch.highest = std::max(patch.highest, other);
+      } else if (is_seen == 0) {
+        is_seen = 1;
+        open.push_back(next);
       }
     });
-    return std::move(found_);
   }
+  return cliffs_about ? std::optional(patch) : std::nullopt;
+}
 
- private:
-  struct Cell {
-    int column = 0, row = 0;
-  };
-
-  // Calls work(column, row, distance) for the known neighbours of a point.
-  template <class Work>
-  void for_each_neighbour(const Cell& cell, const Work& work) const {
-    constexpr std::array<Cell, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    for (const Cell& direction : directions) {
-      const int column = cell.column + direction.column, row = cell.row + direction.row;
-      const bool inside = column >= 0 && column < ground_.columns && row >= 0 && row < ground_.rows;
-      if (inside && !std::isnan(ground_.at(column, row))) {
-        work(column, row, direction.row == 0 ? ground_.cell_x : ground_.cell_y);
-      }
-    }
-  }
-
-  [[nodiscard]] static bool is_cliff(double one, double other, double distance) {
-    return std::abs(one - other) > std::max(least_step, steep * distance);
-  }
-
-  // A patch surrounded by cliffs can begin only at a point next to a cliff.
-  [[nodiscard]] bool begins_patch(int column, int row) const {
-    const double height = ground_.at(column, row);
+// Patches by value. A patch surrounded by cliffs begins at a point next to a cliff.
+std::map<double, Apart> patches_of(const Raster& ground) {
+  std::map<double, Apart> found;
+  std::vector<char> seen(ground.values.size(), 0);
+  for_each_point(ground, [&](int column, int row, double height) {
     bool at_cliff = false;
-    if (seen_[ground_.index(column, row)] == 0 && !std::isnan(height)) {
-      for_each_neighbour({column, row}, [&](int i, int j, double distance) {
-        at_cliff = at_cliff || is_cliff(height, ground_.at(i, j), distance);
+    if (seen[ground.index(column, row)] == 0 && !std::isnan(height)) {
+      for_each_neighbour(ground, {column, row}, [&](const Cell& next, double distance) {
+        at_cliff = at_cliff || is_cliff(height, ground.at(next.column, next.row), distance);
       });
     }
-    return at_cliff;
-  }
-
-  // Collects all points of the same value connected to this one.
-  void add_patch(int first_column, int first_row) {
-    const double height = ground_.at(first_column, first_row);
-    Apart patch;
-    patch.x = ground_.x_of(first_column);
-    patch.y = ground_.y_of(first_row);
-    bool cliffs_about = true;
-    std::vector<Cell> open{{first_column, first_row}};
-    seen_[ground_.index(first_column, first_row)] = 1;
-    while (!open.empty()) {
-      const Cell cell = open.back();
-      open.pop_back();
-      ++patch.points;
-      for_each_neighbour(cell, [&](int column, int row, double distance) {
-        const double other = ground_.at(column, row);
-        if (other != height) {
-          cliffs_about = cliffs_about && is_cliff(height, other, distance);
-          patch.lowest = std::min(patch.lowest, other);
-          patch.highest = std::max(patch.highest, other);
-        } else if (seen_[ground_.index(column, row)] == 0) {
-          seen_[ground_.index(column, row)] = 1;
-          open.push_back({column, row});
-        }
-      });
+    if (const auto patch = at_cliff ? patch_at(ground, {column, row}, seen) : std::nullopt) {
+      Apart& all = found.try_emplace(height, Apart{.x = patch->x, .y = patch->y}).first->second;
+      all.points += patch->points;
+      all.lowest = std::min(all.lowest, patch->lowest);
+      all.highest = std::max(all.highest, patch->highest);
     }
-    if (cliffs_about) {
-      add(height, patch);
-    }
-  }
-
-  void add(double height, const Apart& patch) {
-    Apart& all = found_[height];
-    if (all.points == 0) {
-      all = patch;
-      return;
-    }
-    all.points += patch.points;
-    all.lowest = std::min(all.lowest, patch.lowest);
-    all.highest = std::max(all.highest, patch.highest);
-  }
-
-  const Raster& ground_;
-  std::vector<char> seen_;
-  std::map<double, Apart> found_;
-};
+  });
+  return found;
+}
 
 }  // namespace
 
@@ -181,7 +158,7 @@ std::string holes_warning(const config::Case& parameters, const config::Site& si
 std::string pits_warning(const std::string& file, const Raster& ground) {
   double value = 0.0;
   Apart most;
-  for (const auto& [height, apart] : Patches(ground).apart()) {
+  for (const auto& [height, apart] : patches_of(ground)) {
     if (apart.points > most.points && (apart.points > 1 || height == 0.0)) {
       value = height;
       most = apart;

@@ -4,12 +4,15 @@
 #include <ogr_geometry.h>
 #include <ogr_spatialref.h>
 
+#include <array>
+
 #include "gis/polygons.hpp"
 
 namespace thawslide::gis {
 
 [[nodiscard]] OGRMultiPolygon to_geometry(const Polygons& polygons);
 [[nodiscard]] OGRLineString to_geometry(const Polyline2& line);
+[[nodiscard]] inline OGRPoint to_geometry(const std::array<double, 2>& point) { return {point[0], point[1]}; }
 [[nodiscard]] OGRPolygon to_geometry(const Polygon& polygon);
 
 [[nodiscard]] Polygon from_geometry(const OGRPolygon& polygon);

@@ -16,35 +16,8 @@ namespace thawslide::gis {
 
 namespace {
 
-OGRwkbGeometryType type_of(const MapLayer& layer) {
-  constexpr OGRwkbGeometryType types[] = {wkbMultiPolygon, wkbLineString, wkbPoint};
-  return types[layer.features.index()];
-}
-
 std::size_t count_of(const MapLayer& layer) {
   return std::visit([](const auto& features) { return features.size(); }, layer.features);
-}
-
-void check_sizes(const MapLayer& layer) {
-  for (const Attribute& attribute : layer.attributes) {
-    const std::size_t values = std::visit([](const auto& all) { return all.size(); }, attribute.values);
-    THAWSLIDE_ASSERT(values == count_of(layer), "layer {}: {} features, {} values of {}", layer.name, count_of(layer),
-                     values, attribute.name);
-  }
-}
-
-void set_geometry(OGRFeature& feature, const MapLayer& layer, std::size_t k) {
-  if (const auto* areas = std::get_if<std::vector<Polygons>>(&layer.features)) {
-    const OGRMultiPolygon geometry = to_geometry((*areas)[k]);
-    feature.SetGeometry(&geometry);
-  } else if (const auto* lines = std::get_if<std::vector<Polyline2>>(&layer.features)) {
-    const OGRLineString geometry = to_geometry((*lines)[k]);
-    feature.SetGeometry(&geometry);
-  } else {
-    const auto& point = std::get<2>(layer.features)[k];
-    const OGRPoint geometry(point[0], point[1]);
-    feature.SetGeometry(&geometry);
-  }
 }
 
 void set_attributes(OGRFeature& feature, const MapLayer& layer, std::size_t k) {
@@ -60,8 +33,13 @@ void set_attributes(OGRFeature& feature, const MapLayer& layer, std::size_t k) {
 }
 
 bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReference* reference) {
-  check_sizes(layer);
-  OGRLayer* const written = dataset.CreateLayer(layer.name.c_str(), reference, type_of(layer), nullptr);
+  constexpr OGRwkbGeometryType types[] = {wkbMultiPolygon, wkbLineString, wkbPoint};
+  for (const Attribute& attribute : layer.attributes) {
+    const std::size_t values = std::visit([](const auto& all) { return all.size(); }, attribute.values);
+    THAWSLIDE_ASSERT(values == count_of(layer), "layer {}: {} features, {} values of {}", layer.name, count_of(layer),
+                     values, attribute.name);
+  }
+  OGRLayer* const written = dataset.CreateLayer(layer.name.c_str(), reference, types[layer.features.index()], nullptr);
   if (written == nullptr) {
     return false;
   }
@@ -73,7 +51,12 @@ bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReferenc
   }
   for (std::size_t k = 0; k < count_of(layer); ++k) {
     OGRFeature feature(written->GetLayerDefn());
-    set_geometry(feature, layer, k);
+    std::visit(
+        [&](const auto& features) {
+          const auto geometry = to_geometry(features[k]);
+          feature.SetGeometry(&geometry);
+        },
+        layer.features);
     set_attributes(feature, layer, k);
     if (written->CreateFeature(&feature) != OGRERR_NONE) {
       return false;
@@ -91,17 +74,14 @@ bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
   if (table == nullptr) {
     return false;
   }
-  const auto add_column = [&](const char* name, OGRFieldType type, OGRFieldSubType subtype = OFSTNone) {
-    OGRFieldDefn field(name, type);
-    field.SetSubType(subtype);
-    return table->CreateField(&field) == OGRERR_NONE;
-  };
   bool written = true;
   for (const char* name : {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column", "styleName",
-                           "styleQML", "styleSLD", "description", "owner", "ui"}) {
-    written = written && add_column(name, OFTString);
+                           "styleQML", "styleSLD", "description", "owner", "ui", "useAsDefault", "update_time"}) {
+    const bool is_flag = std::string("useAsDefault") == name, is_time = std::string("update_time") == name;
+    OGRFieldDefn field(name, is_flag ? OFTInteger : is_time ? OFTDateTime : OFTString);
+    field.SetSubType(is_flag ? OFSTBoolean : OFSTNone);
+    written = written && table->CreateField(&field) == OGRERR_NONE;
   }
-  written = written && add_column("useAsDefault", OFTInteger, OFSTBoolean) && add_column("update_time", OFTDateTime);
   for (const MapLayer& layer : layers) {
     if (layer.style.empty()) {
       continue;

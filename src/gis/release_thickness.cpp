@@ -1,5 +1,8 @@
 #include "gis/release_thickness.hpp"
 
+#include <optional>
+#include <utility>
+
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "gis/case_inputs.hpp"
@@ -48,17 +51,18 @@ class ThicknessMaker {
  private:
   enum class Spread { by_outline, by_taper };
 
-  [[noreturn]] void fail(const char* key, const std::string& message) const {
-    fail_at(case_, key_of(name_, key), message);
+  template <class... Values>
+  [[noreturn]] void fail(const char* key, fmt::format_string<Values...> form, Values&&... values) const {
+    fail_at(case_, key_of(name_, key), fmt::format(form, std::forward<Values>(values)...));
   }
 
-  // Indices of a point of the area in the ground raster; false if there is no ground.
-  bool has_ground(int column, int row, int& ground_column, int& ground_row) const {
+  // Indices of a point of the area in the ground raster; nothing if there is no ground.
+  [[nodiscard]] std::optional<std::pair<int, int>> in_ground(int column, int row) const {
     const Raster& fraction = area_.fraction;
-    ground_column = column + static_cast<int>(std::lround((fraction.x - ground_.x) / ground_.cell_x));
-    ground_row = row + static_cast<int>(std::lround((fraction.y - ground_.y) / ground_.cell_y));
-    return ground_column >= 0 && ground_row >= 0 && ground_column < ground_.columns && ground_row < ground_.rows &&
-           !std::isnan(ground_.at(ground_column, ground_row));
+    const int i = column + static_cast<int>(std::lround((fraction.x - ground_.x) / ground_.cell_x));
+    const int j = row + static_cast<int>(std::lround((fraction.y - ground_.y) / ground_.cell_y));
+    const bool is_inside = i >= 0 && j >= 0 && i < ground_.columns && j < ground_.rows;
+    return is_inside && !std::isnan(ground_.at(i, j)) ? std::optional(std::pair(i, j)) : std::nullopt;
   }
 
   // Calls work(column, row, value) for the points with a value.
@@ -76,28 +80,27 @@ class ThicknessMaker {
     int without = 0;
     std::string first;
     for_each_positive(thickness, [&](int column, int row, double) {
-      int i = 0, j = 0;
-      if (!has_ground(column, row, i, j) && without++ == 0) {
+      if (!in_ground(column, row) && without++ == 0) {
         first = fmt::format("{}, {}", coordinate_text(thickness.x_of(column)), coordinate_text(thickness.y_of(row)));
       }
     });
     if (without > 0 && spread == Spread::by_taper) {
-      fail("taper", fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, such "
-                                "as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
-                                body_.taper, area_file(case_, name_), without, first, shell_quote(case_.terrain.file)));
+      fail("taper",
+           "a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, such as {}. Set a "
+           "narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
+           body_.taper, area_file(case_, name_), without, first, shell_quote(case_.terrain.file));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
-           fmt::format("{}: the release lies over nodata of the DEM at {} of its points, such as {}. Fill the holes "
-                       "(gdal_fillnodata.py {} filled.tif), or move the release.",
-                       area_file(case_, name_), without, first, shell_quote(case_.terrain.file)));
+           "{}: the release lies over nodata of the DEM at {} of its points, such as {}. Fill the holes "
+           "(gdal_fillnodata.py {} filled.tif), or move the release.",
+           area_file(case_, name_), without, first, shell_quote(case_.terrain.file));
     }
   }
 
   void to_vertical(Raster& thickness) const {
     for_each_positive(thickness, [&](int column, int row, double& value) {
-      int i = 0, j = 0;
-      has_ground(column, row, i, j);
+      const auto [i, j] = *in_ground(column, row);
       const Gradient gradient = gradient_at(ground_, i, j);
       value = vertical_thickness(value, gradient.x, gradient.y);
     });
@@ -133,9 +136,9 @@ class ThicknessMaker {
   Raster of_number() const {
     if (!(body_.thickness.number > 0.0)) {
       fail("thickness",
-           fmt::format("the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or to {{ "
-                       "attribute = \"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
-                       body_.thickness.number));
+           "the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or to {{ attribute = "
+           "\"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
+           body_.thickness.number);
     }
     return times_fraction([&](std::size_t) { return body_.thickness.number; });
   }
@@ -146,8 +149,8 @@ class ThicknessMaker {
     for (const ValuedArea& part :
          with_error_location(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
       if (part.value < 0.0) {
-        fail("thickness", fmt::format("{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
-                                      body_.thickness.source, part.value));
+        fail("thickness", "{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
+             body_.thickness.source, part.value);
       }
       const Raster fraction = coverage_of(part.polygons, area_.fraction);
       for (std::size_t k = 0; k < fraction.values.size(); ++k) {
@@ -221,13 +224,12 @@ class ThicknessMaker {
     const Raster above = above_ground_of_area();
     Raster thickness = area_.fraction;
     for_each_positive(thickness, [&](int column, int row, double& value) {
-      int i = 0, j = 0;
       const double difference = above.at(column, row);
       const auto specified = [&](const std::string& what) {
-        fail("thickness", fmt::format("{}: at {}, {}, within the release, {}", body_.thickness.source,
-                                      coordinate_text(above.x_of(column)), coordinate_text(above.y_of(row)), what));
+        fail("thickness", "{}: at {}, {}, within the release, {}", body_.thickness.source,
+             coordinate_text(above.x_of(column)), coordinate_text(above.y_of(row)), what);
       };
-      if (!has_ground(column, row, i, j)) {
+      if (!in_ground(column, row)) {
         return;
       }
       if (std::isnan(difference)) {
@@ -259,8 +261,8 @@ class ThicknessMaker {
                             const std::string& file) const {
     for_each_point(raster, [&](int column, int row, double value) {
       if (value < 0.0 && (fraction == nullptr || fraction->at(column, row) > 0.0)) {
-        fail(key, fmt::format("{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", file,
-                              coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), value));
+        fail(key, "{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", file,
+             coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), value);
       }
     });
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -56,31 +57,16 @@ struct TextsOfQuantity {
   const char* short_own;
 };
 
-TextsOfQuantity texts_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::temperature:
-      return {"temperature", "C, K, F", "degrees Celsius", "C"};
-    case Quantity::fraction:
-      return {"fraction", "1, %", "fractions of 1", "1"};
-    case Quantity::speed:
-      return {"speed", "m/s, cm/s, mm/s, km/h, ft/s, mph, kn", "m/s", "m/s"};
-    case Quantity::time:
-      return {"time", "s, ms, min, h", "seconds", "s"};
-    case Quantity::length:
-    case Quantity::code:
-      break;
-  }
-  return {"length", "m, mm, cm, dm, km, in, ft, US survey foot, yd", "metres", "m"};
-}
+const std::map<Quantity, TextsOfQuantity> texts_of{
+    {Quantity::length, {"length", "m, mm, cm, dm, km, in, ft, US survey foot, yd", "metres", "m"}},
+    {Quantity::temperature, {"temperature", "C, K, F", "degrees Celsius", "C"}},
+    {Quantity::fraction, {"fraction", "1, %", "fractions of 1", "1"}},
+    {Quantity::speed, {"speed", "m/s, cm/s, mm/s, km/h, ft/s, mph, kn", "m/s", "m/s"}},
+    {Quantity::time, {"time", "s, ms, min, h", "seconds", "s"}}};
 
 std::string simplified(const std::string& unit) {
-  std::string simple;
-  for (const char c : unit) {
-    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (std::string(" ._-^()[]").find(small) == std::string::npos) {
-      simple += small;
-    }
-  }
+  std::string simple = lower_case(unit);
+  std::erase_if(simple, [](char c) { return std::string_view(" ._-^()[]").find(c) != std::string_view::npos; });
   return simple;
 }
 
@@ -127,12 +113,12 @@ UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, 
 }  // namespace
 
 UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
-  const TextsOfQuantity texts = texts_of(quantity);
   // GDAL reports the vertical unit for a band without a unit, whatever the band measures.
   const bool is_vertical = states_nothing(stated.band) || stated.band == stated.vertical;
   if (quantity == Quantity::code || (is_vertical && quantity != Quantity::length)) {
     return {};
   }
+  const TextsOfQuantity& texts = texts_of.at(quantity);
   if (is_vertical) {
     return states_nothing(stated.vertical)
                ? UnitConversion{}

@@ -84,13 +84,11 @@ void write_dataset(hid_t parent, const std::string& name, const Shape& shape, co
 }
 
 void write_attribute(hid_t object, const std::string& name, double value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "a scalar");
-  write_any_attribute(object, name, H5T_NATIVE_DOUBLE, space, &value);
+  write_any_attribute(object, name, H5T_NATIVE_DOUBLE, Handle(H5Screate(H5S_SCALAR), H5Sclose, "a scalar"), &value);
 }
 
 void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "a scalar");
-  write_any_attribute(object, name, H5T_NATIVE_INT64, space, &value);
+  write_any_attribute(object, name, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose, "a scalar"), &value);
 }
 
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int64_t>& values) {
@@ -103,8 +101,7 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a text type");
   require(H5Tset_size(type, text.size()), "text length");
   require(H5Tset_strpad(type, H5T_STR_NULLPAD), "text padding");
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "a scalar");
-  write_any_attribute(object, name, type, space, text.data());
+  write_any_attribute(object, name, type, Handle(H5Screate(H5S_SCALAR), H5Sclose, "a scalar"), text.data());
 }
 
 Handle make_vtk_root(hid_t file) {
