@@ -58,7 +58,6 @@ TEST(BandColumns, UnderASlabAgreeWithThoseOfTheBlock) {
   Simulation<2> simulation(parameters);
   run_until(simulation, 6.0);
   const HistoryRow block = run_block(parameters).back();
-  const auto* columns = simulation.band_columns();
   const auto expect_middle = [&](const char* name, const auto& of, double start) {
     const double middle =
         median_over_base(simulation, [&](const auto& segment) { return of(band::current_means(segment)); });
