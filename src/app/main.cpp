@@ -313,12 +313,10 @@ int main(int count, char** arguments) {
   thawslide::set_passive_wait(arguments);
   try {
     return run_program(count, arguments);
-  } catch (const thawslide::WriteError& error) {
-    print_error("error: {}\n", printable(error.what()));
-    return static_cast<int>(ExitCode::not_written);
   } catch (const thawslide::UserError& error) {
     print_error("error: {}\n", printable(error.what()));
-    return static_cast<int>(ExitCode::user_mistake);
+    const bool is_written = dynamic_cast<const thawslide::WriteError*>(&error) == nullptr;
+    return static_cast<int>(is_written ? ExitCode::user_mistake : ExitCode::not_written);
   } catch (const thawslide::RunError& error) {
     print_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::run_failed);

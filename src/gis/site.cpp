@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "gis/case_inputs.hpp"
 #include "gis/dem.hpp"
@@ -63,17 +64,6 @@ Raster without_cut_bodies(const config::Case& parameters, const std::map<std::st
   return ground;
 }
 
-// Removes repeated warnings, because bodies from one file share them.
-std::vector<std::string> each_once(const std::vector<std::string>& warnings) {
-  std::vector<std::string> once;
-  for (const std::string& warning : warnings) {
-    if (std::ranges::find(once, warning) == once.end()) {
-      once.push_back(warning);
-    }
-  }
-  return once;
-}
-
 }  // namespace
 
 SiteAndWarnings load_site(const config::Case& parameters) {
@@ -121,7 +111,9 @@ SiteAndWarnings load_site(const config::Case& parameters) {
                                            : load_line(parameters, fmt::format("probe.{}.line", name), probe.line,
                                                        site.crs, loaded.warnings);
   }
-  loaded.warnings = each_once(loaded.warnings);
+  // Bodies from one file share warnings, which are kept once.
+  std::set<std::string> known;
+  std::erase_if(loaded.warnings, [&](const std::string& warning) { return !known.insert(warning).second; });
   return loaded;
 }
 

@@ -51,30 +51,21 @@ double bytes_of_files(const config::Case& parameters) {
 // Size of a visited map cell in a checkpoint: its number, and its state.
 constexpr double bytes_of_map_cell = (1.0 + sim::map_cell_numbers) * sizeof(double);
 
-double bytes_of_maps(const sim::FlowMaps& maps) {
-  double cells = 0.0;
-  maps.for_cells([&cells](int, int, const sim::MapCell&) { ++cells; });
-  return cells * bytes_of_map_cell;
-}
-
-double bytes_of_all_maps(const sim::MapGrid& grid) {
-  return static_cast<double>(grid.columns) * grid.rows * bytes_of_map_cell;
-}
-
-double bytes_of(const std::vector<double>& numbers) { return static_cast<double>(numbers.size() * sizeof(double)); }
-
 // Sets the size of checkpoints. The number of bed columns is constant, and that of particles unless they are split.
 template <int Dim>
 void count_checkpoint(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
   const double of_particles =
       static_cast<double>(simulation.particles().size()) * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>());
-  const double lasting =
-      bytes_besides_points + of_particles + (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
+  const std::size_t numbers_of_bed = simulation.bed() == nullptr ? 0 : simulation.bed()->state().size();
+  const double lasting = bytes_besides_points + of_particles + static_cast<double>(numbers_of_bed * sizeof(double));
   // The first step creates columns: assume the maximum number, and the same size as in memory.
   const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(simulation.parameters(), simulation.site());
   const double columns = sim::memory_need<Dim>(simulation.parameters(), simulation.site(), bodies).columns;
-  const double of_maps = maps == nullptr ? 0.0 : bytes_of_maps(*maps);
-  const double most_of_maps = maps == nullptr ? 0.0 : bytes_of_all_maps(maps->map_grid());
+  double of_maps = 0.0, most_of_maps = 0.0;
+  if (maps != nullptr) {
+    maps->for_cells([&](int, int, const sim::MapCell&) { of_maps += bytes_of_map_cell; });
+    most_of_maps = static_cast<double>(maps->map_grid().columns) * maps->map_grid().rows * bytes_of_map_cell;
+  }
   need.checkpoints = generations;
   need.checkpoint_at_start = lasting + columns / sim::usual_spread + of_maps;
   need.checkpoint = lasting + of_particles * (sim::splitting_factor(simulation.parameters()) - 1.0) + columns +
