@@ -1,11 +1,27 @@
-"""Every case of the project runs, shortened: the first seconds of each file of `cases/`."""
+"""Cases are valid: those of the project, of comparisons with other codes, of a page, and random ones.
 
+The files of `cases/` run for their first seconds. Of a comparison, a short run conserves the volume of the pile.
+"""
+
+import math
+import re
+import sys
 import tomllib
+from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT, Program, history, run_facts
+from conftest import ROOT, Program, Ran, columns_of, history, run_facts
+from random_cases import attempt, draw
+from terrain_files import SOUTH, WEST, write_rectangle, write_slope
+
+sys.path.append(str(ROOT))
+
+from reproduction.studies import frank, joffre, joffre_judged, refinement
+from reproduction.study import Job, Place
+from thawslide import Case
 
 CASES = sorted((ROOT / "cases").glob("*/*.toml"))
 STEPS = 40
@@ -21,22 +37,23 @@ USER_DATA = {
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.parent.name}/{case.stem}")
 def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> None:
-    data_options = options_of_user_data(case)
-    thawslide.ok("check", case, *data_options)
-    step = step_of(case)
+    user_data = keys_of_user_data(case)
+    thawslide.ok("check", case, *options(user_data))
+    tables = tomllib.loads(Case(case, user_data).to_toml())
+    is_adaptive = tables["time"]["stepping"] == "adaptive"
+    end = STEPS * (ADAPTIVE_STEP if is_adaptive else tables["time"]["step"])
+    later = {f"body.{name}.release_time": 0.5 * end for name, body in tables["body"].items() if body["release_time"]}
     run = tmp_path / "run"
-    shortened = ["--set", f"time.end={STEPS * step:.12g}", "--output", run, "--overwrite"]
-    for body in held_bodies(case):
-        shortened += ["--set", f"body.{body}.release_time={0.5 * STEPS * step:.12g}"]
-    thawslide.ok("run", case, *data_options, *shortened)
+    shortened = {key: f"{time:.12g}" for key, time in ({"time.end": end} | later).items()}
+    thawslide.ok("run", case, *options(user_data | shortened), "--output", run)
     assert run_facts(run)["status"] == "done"
     columns = history(run)
     last = {name: values[-1] for name, values in columns.items()}
-    assert last["step"] == STEPS or is_adaptive(case)
+    assert last["step"] == STEPS or is_adaptive
     for name, values in columns.items():
         empty = name.startswith("band_")  # no band, or no contact before the first step
         # Without a path, the front follows the track of the centre of mass, which does not exist before motion.
-        known = values[-1:] if data_options and name in ("front_position_m", "runout_m") else values
+        known = values[-1:] if user_data and name in ("front_position_m", "runout_m") else values
         assert empty or np.isfinite(known).all(), name
     # Particles of a release differ in mass: sums in another order differ by round-off.
     round_off = 1e-13 if (run / "maps" / "release.tif").is_file() else 0.0
@@ -50,39 +67,128 @@ def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> 
     assert abs(last["thermal_residual_J"]) <= 1e-12 * start + 1e-9 * heat
 
 
-def options_of_user_data(case: Path) -> list[str]:
-    """Return the options with terrain and release of a case without its own, and an eighth of its particles.
+def keys_of_user_data(case: Path) -> dict[str, object]:
+    """Return the keys with terrain and release of a case without its own, and an eighth of its particles.
 
     Skips the test if the data are absent.
     """
     if case.parent.name not in USER_DATA:
-        return []
-    terrain, release = (DATA / name for name in USER_DATA[case.parent.name])
-    absent = [str(path.relative_to(DATA)) for path in (terrain, release) if not path.is_file()]
+        return {}
+    needs(*USER_DATA[case.parent.name])
+    terrain, release = (str(DATA / name) for name in USER_DATA[case.parent.name])
+    return {"terrain.file": terrain, "body.slide.release": release, "body.slide.particles_per_axis": 1}
+
+
+def options(keys: Mapping[str, object]) -> list[str]:
+    return [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+
+
+def options_of(job: Job) -> list[str]:
+    return [word for key in job.sets for word in ("--set", key)]
+
+
+def needs(*names: str) -> None:
+    absent = [name for name in names if not (DATA / name).exists()]
     if absent:
         pytest.skip(f"the case needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
-    chosen = [f"terrain.file={terrain}", f"body.slide.release={release}", "body.slide.particles_per_axis=1"]
-    return [word for key in chosen for word in ("--set", key)]
 
 
-def step_of(case: Path) -> float:
-    """Return the time step of a case [s]; for adaptive steps, about the maximum."""
-    return ADAPTIVE_STEP if is_adaptive(case) else float(time_of(case)["step"])
+def test_each_run_of_the_frank_slide_is_a_valid_case(thawslide: Program, binary: Path, tmp_path: Path) -> None:
+    needs("frank")
+    for job in frank.jobs(Place(binary, tmp_path, tmp_path, parts=("*",))):
+        assert "36,000,000 m3" in thawslide.ok("check", job.case, *options_of(job))
 
 
-def held_bodies(case: Path) -> set[str]:
-    """Return the bodies of a case that leave later."""
-    tables = tomllib.loads(case.read_text())
-    base = tables["case"].get("based_on")
-    held = {name for name, body in tables.get("body", {}).items() if "release_time" in body}
-    return held | (held_bodies(case.parent / base) if base else set())
+def test_each_run_on_refined_cells_is_a_valid_case(thawslide: Program, binary: Path, tmp_path: Path) -> None:
+    needs("alr/alr.tif", "alr/release.shp")
+    for job in refinement.jobs(Place(binary, tmp_path, tmp_path)):
+        thawslide.ok("check", job.case, *options_of(job))
 
 
-def is_adaptive(case: Path) -> bool:
-    return bool(time_of(case).get("stepping") == "adaptive")
+def test_each_case_of_the_blind_forecast_is_valid_and_releases_its_volume(thawslide: Program, tmp_path: Path) -> None:
+    needs("joffre")
+    joffre.prepare(DATA / "joffre", tmp_path)
+    for case in [tmp_path / release / f"{law}.toml" for release in joffre.RELEASES for law in joffre.LAWS]:
+        assert "2,500,000 m3" in thawslide.ok("check", case)
 
 
-def time_of(case: Path) -> dict[str, object]:
-    tables = tomllib.loads(case.read_text())
-    base = tables["case"].get("based_on")
-    return {**(time_of(case.parent / base) if base else {}), **tables.get("time", {})}
+def test_each_case_of_the_judged_forecast_is_valid(thawslide: Program, binary: Path, tmp_path: Path) -> None:
+    needs("joffre", "frank")
+    for job in joffre_judged.jobs(Place(binary, tmp_path, tmp_path)):
+        if job.subcommand == "run":
+            assert "2,500,000 m3" in thawslide.ok("check", job.case, *options_of(job))
+    for name, volume in (("lower", "2,500,000 m3"), ("upper", "2,500,000 m3"), ("frank", "36,000,000 m3")):
+        assert volume in thawslide.ok("check", tmp_path / name)
+        prior = (tmp_path / name / "sweep.toml").read_text(encoding="utf-8")
+        assert prior == joffre_judged.PRIOR.read_text(encoding="utf-8")
+
+
+def test_short_run_of_the_frank_slide_has_the_pile_on_the_grid_of_shaltop(thawslide: Program, tmp_path: Path) -> None:
+    needs("frank")
+    data = DATA / "frank"
+    terrain, pile = (frank.read_grid(data / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
+    job = frank.job(frank.BASE, 15, data, ("time.end=0.12", "time.output_interval=0.12"))
+    thawslide.ok("run", job.case, *options_of(job), "--threads", "1", "--output", tmp_path / job.key)
+    deposit = frank.read_run(tmp_path / job.key, terrain.grid)
+    found = frank.figures(deposit, terrain, pile)
+    assert found.volume == pytest.approx(36.0, rel=2e-3)
+    released = frank.figures(frank.Deposit(pile, pile, pile), terrain, pile)
+    assert (found.x, found.y) == pytest.approx((released.x, released.y), abs=1.0)
+    assert found.area == pytest.approx(released.area, rel=0.05)
+
+
+PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
+
+
+@pytest.fixture
+def page_case(thawslide: Program, tmp_path: Path) -> Path:
+    text, _ = re.findall(r"^ *```toml\n(.*?)^ *```$", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    write_slope(tmp_path / "dem.tif")
+    write_rectangle(tmp_path / "release.geojson", WEST + 50.0, SOUTH + 250.0)
+    folder = tmp_path / "my-slide"
+    inputs = ["--dem", tmp_path / "dem.tif", "--release", tmp_path / "release.geojson"]
+    thawslide.ok("new", folder, *inputs, "--thickness", 20)
+    path = folder / "voellmy.toml"
+    path.write_text(text)
+    return path
+
+
+def test_page_case_is_valid(thawslide: Program, page_case: Path) -> None:
+    outcome = thawslide("check", page_case)
+    assert outcome.returncode == 0, outcome.stderr
+    assert "friction_coefficient" not in outcome.stdout + outcome.stderr, "no warning about its friction"
+
+
+def test_page_case_as_block_stays_below_its_terminal_velocity(
+    thawslide: Program, page_case: Path, tmp_path: Path
+) -> None:
+    """On 30 degrees the release, 20 m along the vertical, cannot exceed sqrt(xi h cos (sin - mu cos))."""
+    fastest = {}
+    for turbulence in ("500", "100"):
+        rows = tmp_path / f"block-{turbulence}.csv"
+        words = ["--set", f"basal.turbulent_friction={turbulence}", "--output", rows]
+        thawslide.ok("block", page_case, *words)
+        fastest[turbulence] = columns_of(rows)["velocity_m_s"].max()
+        angle = math.radians(30.0)
+        terminal = math.sqrt(float(turbulence) * 20.0 * math.cos(angle) * (math.sin(angle) - 0.15 * math.cos(angle)))
+        assert 0.5 * terminal < fastest[turbulence] < 1.02 * terminal
+    assert fastest["100"] < fastest["500"]
+
+
+def test_page_case_runs(ran: Ran, page_case: Path) -> None:
+    words = ["--set", "time.end=2.0", "--threads", "1"]
+    run = ran(*words, case=page_case)
+    assert history(run)["mean_velocity_m_s"][-1] > 1.0
+    assert "turbulent_friction = 500.0  # m/s2" in (run / "case.toml").read_text()
+
+
+def test_random_cases_end_with_a_result_or_a_refusal_and_most_with_a_result(binary: Path, tmp_path: Path) -> None:
+    """They never end in an internal error. Refused cases test little."""
+    codes: Counter[tuple[str, int]] = Counter()
+    seeds = range(16)
+    for seed in seeds:
+        tested = attempt(binary, draw(seed, tmp_path / str(seed)))
+        assert tested.faults == []
+        codes += tested.codes
+    for command in ("check", "run", "block"):
+        assert codes[command, 0] >= len(seeds) / 2, codes

@@ -1,15 +1,17 @@
-"""Commands version, describe, check, block and report, and invalid commands."""
+"""Commands version, describe, check, block, report and scarp, invalid commands, and the option --device."""
 
 import json
 import re
 import shutil
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import HANG, LAMPLUGH, Outcome, Program, Ran, columns_of, sets
+from conftest import HANG, LAMPLUGH, ROOT, Outcome, Program, Ran, Slope, columns_of, run_facts, sets
+from terrain_files import CELL, COLUMNS, ROWS, SOUTH, WEST, write_rectangle
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -208,3 +210,52 @@ def test_check_warns_of_unusual_values_of_broken_material(thawslide: Program) ->
         "usual 0.005 to 0.05 for broken rock and ice (assumption)\n" in printed
     )
     assert "softening_strain" not in thawslide.ok("check", LAMPLUGH), "the paper's own softening"
+
+
+def test_a_missing_gpu_is_reported_before_writing(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    outcome = thawslide("run", small_case, "--output", run, "--device", "gpu")
+    if outcome.returncode == 0:
+        assert run_facts(run)["parts"][0]["device"]
+        pytest.skip("a GPU is available, and the run used it")
+    assert outcome.returncode == 2 and not run.exists()
+    assert outcome.stderr.startswith("error: --device gpu: ")
+    assert outcome.stderr.endswith("un the case on the CPU: --device cpu\n")
+
+
+@pytest.mark.parametrize("device", ["auto", "cpu"])
+def test_auto_and_cpu_run_and_resume(ran: Ran, thawslide: Program, device: str) -> None:
+    run = ran("--device", device)
+    assert device == "auto" or run_facts(run)["parts"][0]["device"] == ""
+    thawslide.ok("resume", run, "--device", device)
+
+
+def test_another_device_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    message = thawslide.error("run", small_case, "--output", tmp_path / "run", "--device", "tpu")
+    assert "--device: tpu not in {cpu,gpu,auto}" in message
+
+
+X, Y = WEST + 0.3 * COLUMNS * CELL, SOUTH + 0.5 * ROWS * CELL
+SURFACES = {
+    "plane": ["--plane", f"x={X},y={Y},dip=25,direction=90,depth=5"],
+    "ellipsoid": ["--ellipsoid", f"x={X},y={Y},half_length=90,half_width=60,azimuth=90"],
+    "slbl": ["--slbl"],
+}
+
+
+@pytest.mark.parametrize("surface", SURFACES)
+def test_the_release_of_scarp_is_a_case(
+    surface: str, thawslide: Program, report_environment: dict[str, str], slope: Slope
+) -> None:
+    folder = slope.folder / "case"
+    outline = write_rectangle(slope.folder / "outline.geojson", X - 90.0, Y - 60.0, 180.0, 120.0)
+    words = [slope(), *SURFACES[surface], "--within", outline, "--volume", 250000]
+    environment = report_environment | {"PYTHONPATH": str(ROOT / "python")}
+    scarp = [sys.executable, "-m", "thawslide.scarps.command", *words, "--output", slope.folder / "scarp.tif"]
+    done = thawslide.finish(scarp, env=environment)
+    assert done.returncode == 0, done.stderr
+    command = done.stdout.splitlines()[-1].removeprefix("To continue: thawslide ").replace("FOLDER", str(folder))
+    (volume,) = re.findall(r"a release of ([\d,]+) m3", thawslide.ok(*command.split()))
+    assert float(volume.replace(",", "")) == pytest.approx(250_000.0, rel=2e-3)
+    assert tomllib.loads((folder / "case.toml").read_text())["body"]["slide"]["placement"] == "cut"
+    assert thawslide.json("check", folder)

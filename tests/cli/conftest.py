@@ -14,6 +14,7 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+import rasterio
 from terrain_files import SOUTH, THICKNESS, WEST, toml, write_rectangle, write_slope
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -284,6 +285,12 @@ def columns_of(file: Path) -> dict[str, np.ndarray]:
 
 def history(run: Path) -> dict[str, np.ndarray]:
     return columns_of(run / "history.csv")
+
+
+def release_volume(run: Path) -> float:
+    """Return the volume of the release in the maps of a run [m3]."""
+    with rasterio.open(run / "maps" / "release.tif") as file:
+        return float(file.read(1, masked=True).sum()) * abs(file.transform.determinant)
 
 
 def snapshot_files(run: Path) -> list[Path]:

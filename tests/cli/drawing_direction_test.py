@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rasterio
-from conftest import ROOT, Outcome, Program, Ran, columns_of, edit, history, run_facts, sets
+from conftest import ROOT, Program, Ran, columns_of, edit, history, run_facts, sets
 from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line
 
 FAULTS = ROOT.parent / "shared" / "data" / "faults"
@@ -67,13 +67,6 @@ def assert_alike(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> No
         assert other[name] == pytest.approx(values, rel=1e-6, abs=1e-7 * scale, nan_ok=True), name
 
 
-def safety_factor(outcome: Outcome) -> float:
-    assert outcome.returncode == 0, outcome.stderr
-    found = re.search(r"safety factor at the start: (\S+) ", outcome.stdout)
-    assert found, outcome.stdout
-    return float(found[1])
-
-
 def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: Program, tmp_path: Path) -> None:
     runs: dict[bool, dict[str, Any]] = {}
     for is_reversed in (False, True):
@@ -110,12 +103,17 @@ def test_discharge_is_positive_downstream(ran: Ran, tmp_path: Path) -> None:
 @pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])
 def test_the_path_start_does_not_affect_the_safety_factor(thawslide: Program, tmp_path: Path, start: float) -> None:
     """The release extends from 105 to 205 m; paths start before, within and below it."""
-    words = sets(**COULOMB)
-    complete = thawslide("block", write_case(tmp_path / "complete"), *words)
-    path = [(start, 150.0), (400.0, 150.0)]
+
+    def safety_factor(name: str, **more: Any) -> float:
+        printed = thawslide.ok("block", write_case(tmp_path / name, **more), *sets(**COULOMB))
+        (found,) = re.findall(r"safety factor at the start: (\S+) ", printed)
+        return float(found)
+
+    complete = safety_factor("complete")
     for is_reversed in (False, True):
-        case = write_case(tmp_path / f"case-{is_reversed}", is_reversed=is_reversed, path=path)
-        assert safety_factor(thawslide("block", case, *words)) == pytest.approx(safety_factor(complete), rel=0.02)
+        path = [(start, 150.0), (400.0, 150.0)]
+        found = safety_factor(f"case-{is_reversed}", is_reversed=is_reversed, path=path)
+        assert found == pytest.approx(complete, rel=0.02)
 
 
 @pytest.mark.parametrize("is_reversed", [False, True])
@@ -131,55 +129,47 @@ def test_section_keeps_its_direction(thawslide: Program, tmp_path: Path, is_reve
     assert rows[np.argmax(rows[:, 2] - rows[:, 1]), 0] < 200.0, "the release is at the beginning"
 
 
-SLOPE_IN_PLANE = toml("""
-[case] gravity_tilt = {tilt}
+SLOPE_ON_PROFILE = toml("""
 [time] end = 1.5 | step = 0.002 | output_interval = 1.5 | history_interval = 0.5
 [grid] cell = 5.0 | min = [0.0, 0.0] | max = [400.0, 400.0]
-[terrain] {ground}
+[terrain] type = "profile" | file = "profile.csv"
 [material.rock] law = "elastic" | youngs_modulus = 1.0e8 | poisson_ratio = 0.2 | viscosity_time = 0.02
-[body.slide] material = "rock" | shape = "polygon" | vertices = {vertices} | velocity = [{velocity}, 0.0]
+[body.slide] material = "rock" | shape = "polygon" | vertices = {vertices}
 [basal] friction = "constant" | friction_angle = 10.0
 [heat] enabled = false
 [pressure] enabled = false
 """)
 
 
-def write_slope_in_plane(file: Path, sign: float, how: str) -> Path:
-    """Write a slide that moves towards +x or -x: down a plane or a profile, by gravity or by its velocity."""
-    fall = 0.6 if how in ("plane", "profile") else 0.0
+def write_slope_on_profile(folder: Path, sign: float) -> Path:
+    """Write a slide that moves towards +x or -x down a profile."""
 
-    def x_of(along: float) -> float:
-        return along if sign > 0.0 else 400.0 - along
+    def points(corners: list[tuple[float, float]]) -> list[list[float]]:
+        return [[along if sign > 0.0 else 400.0 - along, 300.0 - 0.6 * along + up] for along, up in corners]
 
-    ring = [(100.0, 0.0), (140.0, 0.0), (140.0, 30.0), (100.0, 30.0)]
-    vertices = [[x_of(along), 300.0 - fall * along + up] for along, up in ring]
-    slope = float(sign * np.degrees(np.arctan(fall)))
-    ground = f'type = "plane"\nelevation = {300.0 - fall * x_of(0.0)}\nslope = {slope!r}'
-    if how == "profile":
-        rows = sorted((x_of(along), 300.0 - fall * along) for along in (0.0, 200.0, 400.0))
-        text = "".join(f"{x!r},{y!r}\n" for x, y in rows)
-        (file.parent / f"{file.stem}.csv").write_text("distance_m,terrain_elevation_m\n" + text)
-        ground = f'type = "profile"\nfile = "{file.stem}.csv"'
-    tilt, velocity = 30.0 * sign * (how == "tilt"), 6.0 * sign * (how == "velocity")
-    file.write_text(SLOPE_IN_PLANE.format(tilt=tilt, ground=ground, vertices=vertices, velocity=velocity))
-    return file
+    rows = sorted(points([(0.0, 0.0), (200.0, 0.0), (400.0, 0.0)]))
+    folder.mkdir()
+    text = "".join(f"{x!r},{y!r}\n" for x, y in rows)
+    (folder / "profile.csv").write_text("distance_m,terrain_elevation_m\n" + text)
+    vertices = points([(100.0, 0.0), (140.0, 0.0), (140.0, 30.0), (100.0, 30.0)])
+    (folder / "case.toml").write_text(SLOPE_ON_PROFILE.format(vertices=vertices))
+    return folder / "case.toml"
 
 
-@pytest.mark.parametrize("how", ["plane", "profile", "tilt", "velocity"])
-def test_slides_towards_lower_and_higher_x_are_mirror_images(thawslide: Program, tmp_path: Path, how: str) -> None:
+def test_slides_towards_lower_and_higher_x_are_mirror_images(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
+    """On a profile: tests/cpp/sim/direction_test.cpp has planes, tilted gravity and velocities."""
     rows, block = [], []
     for name, sign in (("right", 1.0), ("left", -1.0)):
-        case = write_slope_in_plane(tmp_path / f"{name}.toml", sign, how)
-        thawslide.ok("run", case, "--output", tmp_path / name, "--threads", 1)
-        thawslide.ok("block", case, "--output", tmp_path / f"{name}-block.csv")
-        rows.append(history(tmp_path / name))
-        block.append(columns_of(tmp_path / f"{name}-block.csv"))
+        case = write_slope_on_profile(tmp_path / name, sign)
+        rows.append(history(ran("--threads", 1, case=case, name=f"run-{name}")))
+        thawslide.ok("block", case, "--output", tmp_path / "block.csv")
+        block.append(columns_of(tmp_path / "block.csv"))
+    for right, left in (rows, block):
+        assert left["front_position_m"] == pytest.approx(400.0 - right["front_position_m"], abs=1e-6)
     right, left = rows
     assert right["runout_m"][-1] > right["runout_m"][0] + 2.0
     for column in ("runout_m", "mean_displacement_m", "mean_velocity_m_s", "friction_work_J"):
         assert left[column] == pytest.approx(right[column], rel=1e-6, abs=1e-6), column
-    for one, other in (rows, block):
-        assert other["front_position_m"] == pytest.approx(400.0 - one["front_position_m"], abs=1e-6)
     right, left = block
     assert right["displacement_m"][-1] > 2.0
     for column in right.keys() - {"front_position_m"}:
@@ -187,13 +177,15 @@ def test_slides_towards_lower_and_higher_x_are_mirror_images(thawslide: Program,
 
 
 def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: Program, tmp_path: Path) -> None:
-    case = write_slope_in_plane(tmp_path / "case.toml", 1.0, "profile")
+    case = write_slope_on_profile(tmp_path / "case", 1.0)
     edit(edit(case, "min = [0.0, 0.0]", "min = [-4100.0, 0.0]"), "\nfile =", "\nextend = true\nfile =")
     rows = ["0.0,300.0", "200.0,180.0", "200.00000000000003,180.0", "400.0,60.0"]
-    (tmp_path / "case.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
+    (case.parent / "profile.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
     for command in ("check", "block"):
         message = thawslide.error(command, case)
-        assert "case.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m and more." in message
+        assert (
+            "profile.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m and more." in message
+        )
 
 
 def data_folder(name: str) -> Path:
@@ -201,26 +193,6 @@ def data_folder(name: str) -> Path:
     if not folder.is_dir():
         pytest.skip(f"the inputs of {name} are not next to this checkout")
     return folder
-
-
-@pytest.mark.parametrize("line", ["s105", "s305", "s333.3", "s360", "s420"])
-def test_the_safety_factor_does_not_depend_on_the_start_of_a_path_on_a_dem(thawslide: Program, line: str) -> None:
-    folder = data_folder("g19-path-start")
-    slid = thawslide("block", folder / "case.toml", *sets(maps__path=folder / f"line-{line}.gpkg"))
-    assert safety_factor(slid) == pytest.approx(0.464, abs=0.002)
-
-
-def test_paths_drawn_uphill_give_the_same_front(thawslide: Program, tmp_path: Path) -> None:
-    folder = data_folder("g03-path-uphill")
-    ends = {}
-    for line in ("down", "up", "late"):
-        words = sets(maps__path=folder / f"line-{line}.gpkg")
-        assert safety_factor(thawslide("block", folder / "case-3d.toml", *words)) == pytest.approx(0.464, abs=0.002)
-        run = tmp_path / line
-        thawslide.ok("run", folder / "case-3d.toml", *words, *sets(time__end=2), "--output", run, "--threads", 1)
-        ends[line] = {name: history(run)[name][-1] for name in ("front_position_m", "runout_m")}
-    assert ends["up"] == pytest.approx(ends["down"], abs=1e-6)
-    assert ends["late"]["runout_m"] == pytest.approx(ends["down"]["runout_m"], abs=1e-6)
 
 
 def test_the_block_moves_alike_on_paths_with_different_starts(thawslide: Program, tmp_path: Path) -> None:
@@ -270,42 +242,3 @@ def test_distances_count_from_the_start_of_the_path(thawslide: Program, tmp_path
         fronts[line] = columns_of(file)["front_position_m"]
     assert fronts["down"][0] == pytest.approx(270.0, abs=1e-6), "the release ends at x = 500300, the path starts at 30"
     assert fronts["late"] == pytest.approx(fronts["down"] - 390.0, abs=1e-3)
-
-
-def test_paths_up_the_opposite_slope_do_not_depend_on_direction(thawslide: Program, tmp_path: Path) -> None:
-    folder, slides = data_folder("g03-path-uphill"), {}
-    for line in ("runup", "runup_reversed"):
-        words = sets(terrain__file=folder / "valley.tif", maps__path=folder / f"line-{line}.gpkg", time__end=25)
-        run, file = tmp_path / line, tmp_path / f"{line}.csv"
-        note = f"maps.path: line-{line}.gpkg was drawn against the direction of the slide"
-        for command in (["run", folder / "case-3d.toml", "--threads", 1], ["block", folder / "case-3d.toml"]):
-            output = run if command[0] == "run" else file
-            assert (note in thawslide.ok(*command, *words, "--output", output)) == (line == "runup_reversed")
-        slides[line] = {"run": history(run), "block": columns_of(file)}
-    for plain, turned in zip(slides["runup"].values(), slides["runup_reversed"].values(), strict=True):
-        assert_alike(plain, turned)
-    front, block_front = (slides["runup"][name]["front_position_m"] for name in ("run", "block"))
-    assert block_front[0] == pytest.approx(270.0, abs=1e-6)
-    assert front[0] == pytest.approx(270.0, abs=5.0), "within the size of a particle"
-    assert front[-1] > 800.0 and slides["runup"]["run"]["runout_m"][-1] > 740.0
-
-
-@pytest.mark.parametrize(
-    ("dem", "lines", "end"), [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)]
-)
-def test_sections_drawn_uphill_begin_at_the_release(
-    thawslide: Program, tmp_path: Path, dem: str, lines: tuple[str, str], end: int
-) -> None:
-    """The release is at the first end of the section, even if the opposite slope rises above it."""
-    folder = data_folder("g03-path-uphill")
-    words = ["--dem", folder / f"{dem}.tif", "--release", folder / "release.gpkg", "--thickness", 10]
-    for line in lines:
-        printed = thawslide.ok("section", tmp_path / line, *words, "--line", folder / f"line-{line}.gpkg")
-        note = f"warning: --line: line-{line}.gpkg was drawn against the direction of the slide"
-        assert (note in printed) == (line == lines[1])
-        text = (tmp_path / line / "profile.csv").read_text().splitlines()
-        assert text[1] == f"# From x = 500030, y = 5200300 to x = {end}, y = 5200300 in EPSG:32633."
-        rows = np.array([each.split(",") for each in text if each[0].isdigit()], dtype=float)
-        above = rows[rows[:, 2] > rows[:, 1] + 1.0, 0]
-        assert above.min() == pytest.approx(70.0, abs=10.0) and above.max() == pytest.approx(270.0, abs=10.0)
-        assert (rows[-1, 1] > rows[0, 1]) == (dem == "valley")

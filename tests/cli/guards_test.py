@@ -67,35 +67,6 @@ def test_a_run_at_rest_without_its_last_checkpoint_ends_at_the_same_rest(ran: Ra
     assert (run / "history.csv").read_bytes() == rows
 
 
-@pytest.mark.parametrize("slides", [True, False])
-def test_a_mass_at_rest_ends_the_resumed_run_only_if_it_has_moved(ran: Ran, thawslide: Program, slides: bool) -> None:
-    """A mass has moved if its displacement exceeds a cell."""
-    words = [*SLIDES, *sets(time__end=2.5, body__block__velocity="[2,0]" if slides else "[0,0]")]
-    run = ran(*words)
-    assert history(run)["max_velocity_m_s"][-1] < 0.1
-    rest = sets(time__stop_at_rest=0.1, time__rest_time=0.4)
-    thawslide.ok("resume", run, "--end", 4, *rest)
-    end = run_facts(run)["simulated_time_s"]
-    assert end == pytest.approx(2.91, abs=0.02) if slides else end == pytest.approx(4)
-
-
-def test_a_stop_during_rest_does_not_change_the_end(ran: Ran, thawslide: Program, small_case: Path) -> None:
-    complete = ran(*RESTS, name="complete")
-    end = run_facts(complete)["simulated_time_s"]
-    stop = round(end - 0.2, 2)
-    words = sets(time__output_interval=10, time__history_interval=0.1)
-    thawslide.ok("run", small_case, "--output", complete, "--overwrite", *RESTS, *words)
-    run = ran(*RESTS, *words, *sets(time__end=stop))
-    assert run_facts(run)["simulated_time_s"] == pytest.approx(stop)
-    thawslide.ok("resume", run, "--end", 5)
-    assert run_facts(run)["simulated_time_s"] == end
-    assert run_facts(run)["message"] == run_facts(complete)["message"]
-    assert history(run)["kinetic_J"][-1] == history(complete)["kinetic_J"][-1]
-    # The stopped run has a row and a snapshot of its first end: 7 numbers about files, before the checksum.
-    state = slice(None, -(7 * 8 + 32))
-    assert (run / "checkpoint.bin").read_bytes()[state] == (complete / "checkpoint.bin").read_bytes()[state]
-
-
 def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     """With contact one cell too early, the ground rebounds the falling block with more energy than it had."""
     run = tmp_path / "run"

@@ -6,10 +6,20 @@ import signal
 import tomllib
 from pathlib import Path
 
-import numpy as np
 import pytest
 import rasterio
-from conftest import Interrupted, Program, Ran, Slope, assert_identical, columns_of, history, run_facts, sets
+from conftest import (
+    Interrupted,
+    Program,
+    Ran,
+    Slope,
+    assert_identical,
+    columns_of,
+    history,
+    release_volume,
+    run_facts,
+    sets,
+)
 from terrain_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
 
 
@@ -33,8 +43,7 @@ def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> No
     # Elastic volume changes in 1.5 s are far below 1 %.
     assert thickness.sum() * 4.0 * CELL**2 == pytest.approx(volume, rel=0.01)
     assert abs(columns["mass_residual_kg"][-1]) <= 1e-13 * columns["mass_kg"][0]
-    with rasterio.open(run / "maps" / "release.tif") as file:
-        assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(volume, rel=1e-9)
+    assert release_volume(run) == pytest.approx(volume, rel=1e-9)
     maxima = ("thickness", "speed", "momentum_flux", "pressure", "basal_temperature", "melt", "pore_pressure")
     times, grounds = ("arrival_time", "max_pressure_time"), ("terrain", "ground", "release")
     others = ("final_thickness", *times, "elevation_change", *grounds)
@@ -99,42 +108,6 @@ def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slo
     assert ends[0] > 200.0 and ends[0] == pytest.approx(ends[1], abs=0.1)
 
 
-def test_a_thickness_raster_defines_the_release_without_polygons(ran: Ran, tmp_path: Path, slope: Slope) -> None:
-    folder = tmp_path / "slide"
-    slope.ok()
-    with rasterio.open(folder / "dem.tif") as file:
-        thickness = np.zeros(file.shape)
-        row, column = file.index(WEST + 260.0, SOUTH + 300.0)
-        profile = file.profile | {"nodata": None}
-    thickness[row - 8 : row + 9, column - 8 : column + 9] = 1.5  # of particles 6 m apart
-    thickness[row - 4 : row + 5, column - 4 : column + 5] = THICKNESS
-    with rasterio.open(folder / "thick.tif", "w", **profile) as file:
-        file.write(thickness, 1)
-    case = folder / "case.toml"
-    lines = [line for line in case.read_text().splitlines() if not line.startswith("release = ")]
-    text = "\n".join(lines).replace("thickness = 24.0  # m\n", 'thickness = { raster = "thick.tif" }\n', 1)
-    case.write_text(text)
-    run = ran(*sets(time__end=0.01, maps__cell=CELL), case=folder)
-    with rasterio.open(run / "maps" / "final_thickness.tif") as file:
-        found = file.read(1, masked=True).filled(0.0)
-        x, y = file.xy(*np.indices(found.shape).reshape(2, -1))
-    near = np.maximum(np.abs(np.array(x) - WEST - 260.0), np.abs(np.array(y) - SOUTH - 300.0)).reshape(found.shape)
-    assert found.sum() == pytest.approx(thickness.sum(), rel=1e-4)  # elasticity in the first steps
-    assert found[near < 21.0].mean() == pytest.approx(THICKNESS, rel=0.01)
-    assert found[(near > 69.0) & (near < 71.0)].mean() == pytest.approx(1.5, rel=0.1)
-
-
-def test_cut_lowers_the_terrain_by_the_thickness(ran: Ran, tmp_path: Path, slope: Slope) -> None:
-    release = write_rectangle(tmp_path / "cut.geojson", WEST + 200.0, SOUTH + 250.0, thickness=THICKNESS)
-    dem, folder = slope(), tmp_path / "cut"
-    slope.ok("--cut", folder=folder, release=release, thickness=None)
-    run = ran("--set", "time.end=0.01", case=folder)
-    with rasterio.open(run / "maps" / "terrain.tif") as ground, rasterio.open(dem) as before:
-        west, south = WEST + 260.0, SOUTH + 300.0  # in the middle of the release
-        lowered = next(before.sample([(west, south)]))[0] - next(ground.sample([(west, south)]))[0]
-    assert lowered == pytest.approx(THICKNESS, abs=1e-9)
-
-
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
 def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
     ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path, slope: Slope, number: int, percent: int
@@ -191,8 +164,7 @@ def test_new_accepts_a_raster_of_the_thickness(ran: Ran, tmp_path: Path, slope: 
     assert case["terrain"]["file"] == "terrain.tif"
     assert case["body"]["slide"]["thickness"] == {"raster": "dem.tif"} and "release" not in case["body"]["slide"]
     run = ran("--set", "time.end=0.01", case=folder)
-    with rasterio.open(run / "maps" / "release.tif") as file:
-        assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
+    assert release_volume(run) == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
 
 
 def test_polygons_of_the_ground_become_substrates(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

@@ -76,13 +76,6 @@ def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Pat
     assert warnings_of(thawslide, folder) == [], "no key of maps is given"
 
 
-def test_a_thickness_of_the_order_of_the_width_has_a_warning(slope: Slope) -> None:
-    assert slope.new(thickness=300).stdout.startswith(
-        "warning: the release of the body slide is up to 300 m thick and, by its area, 110 m wide: is the "
-        "thickness in metres?\n"
-    )
-
-
 def test_a_hole_filled_with_zeros_has_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     dem = slope()
     with rasterio.open(dem, "r+") as file:

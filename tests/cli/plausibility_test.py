@@ -67,14 +67,8 @@ SOFT, OUTPUT = "material.rock.youngs_modulus", "time.output_interval"
             "{case}:27:1: body.block floats: its underside is 2 m above what is below it, and it falls for 0.64 s ",
         ),
         (
-            sets(terrain__type="none"),
-            '{case}:27:1: body.block has nothing below it: terrain.type is "none" and the lower side of the domain is '
-            "open, so it falls out of the domain. Set terrain.type, or close the lower side.",
-        ),
-        (
             sets(terrain__type="plane", terrain__slope=40, terrain__elevation=8.39),
-            "{case}:27:1: body.block rests on 6.2 % of its area; the gap below the rest is at least 0.25 m, one "
-            'particle spacing. Use a shape that follows the terrain: shape = "surface", "release", or a polygon.',
+            "{case}:27:1: body.block rests on 6.2 % of its area; the gap below the rest is at least 0.25 m, one ",
         ),
         (sets(body__block__max="[14.0,1.5]"), COARSE),
         (sets(band__thickness=5), "--set band.thickness=5: band.thickness is 5 m: more than the body block, 3 m thick"),
@@ -82,8 +76,6 @@ SOFT, OUTPUT = "material.rock.youngs_modulus", "time.output_interval"
             sets(material__rock__youngs_modulus=1e6, time__step=0.001),
             f"--set {SOFT}=1000000.0: {SOFT} is 1000000 Pa: the weight of body block, 65,000 Pa where it is thickest, ",
         ),
-        (sets(material__rock__youngs_modulus=0.5), f"--set {SOFT}=0.5: {SOFT} is 0.5 Pa: too soft: "),
-        (sets(basal__friction_angle=0.4), "--set basal.friction_angle=0.4: basal.friction_angle is 0.4 degrees: "),
         (sets(body__block__temperature=5), "--set body.block.temperature=5: body.block.temperature is 5 C: "),
         (sets(time__output_interval=100), f"--set {OUTPUT}=100: {OUTPUT} is 100 s: longer than "),
     ],
@@ -106,18 +98,16 @@ def test_the_example_of_the_how_to_page_has_no_warnings(thawslide: Program, tmp_
     assert warnings_of(thawslide, tmp_path) == []
 
 
-def test_a_body_on_a_body_does_not_float(thawslide: Program, plain_case: Path) -> None:
+def test_bodies_above_and_apart_from_others_have_warnings(thawslide: Program, plain_case: Path) -> None:
     file = plain_case / "case.toml"
     file.write_text(file.read_text() + LID)
     assert warnings_of(thawslide, plain_case, *FINE) == []
-    lifted = sets(body__lid__min="[10.0,5.0]", body__lid__max="[14.0,8.0]", contact__between_bodies="bonded")
-    (note,) = warnings_of(thawslide, plain_case, *lifted, *FINE)
-    assert "body.lid floats: its underside is " in note
-
-
-def test_a_closed_side_of_the_domain_supports_a_body(thawslide: Program, plain_case: Path) -> None:
-    closed = sets(terrain__type="none", grid__boundary__y_min="roller", grid__min="[0.0,0.0]")
-    assert warnings_of(thawslide, plain_case, *closed, *FINE) == []
+    lifted = [*sets(body__lid__min="[10.0,5.0]", body__lid__max="[14.0,8.0]"), *FINE]
+    notes = warnings_of(thawslide, plain_case, *lifted)
+    floats, apart = "body.lid floats: its underside is ", "body.lid stands apart from body.block, and contact.between_"
+    assert [any(words in note for note in notes) for words in (floats, apart)] == [True, True]
+    run = thawslide.ok("run", plain_case, "--output", plain_case.parent / "run", *lifted, *sets(time__end=0.001))
+    assert f"warning: {apart}" in run
 
 
 def test_json_contains_the_facts_of_the_text(thawslide: Program, plain_case: Path) -> None:
@@ -193,10 +183,6 @@ def test_an_error_on_the_step_names_modulus_and_density(thawslide: Program, plai
 
 
 VALLEY = ROOT / "cases" / "valley3d"
-# A heap 5 m long and 8 m high, with a blanket 25 m long and 1 m thick in front of it.
-HEAP_AND_BLANKET = sets(
-    grid__max="[40,20]", body__block__shape="polygon", body__block__vertices="[[5,0],[35,0],[35,1],[10,1],[10,8],[5,8]]"
-)
 
 
 @pytest.mark.parametrize("modulus", [1e7, 1.2e7])
@@ -207,13 +193,6 @@ def test_the_advised_modulus_is_sufficient(thawslide: Program, small_case: Path,
     assert reported and float(reported[1]) > modulus, text
     printed = thawslide.ok("check", small_case, *tall, *sets(material__rock__youngs_modulus=reported[1]))
     assert "compresses it" not in printed
-
-
-def test_the_median_and_its_warning_are_weighted_by_area(thawslide: Program, small_case: Path) -> None:
-    text = thawslide.ok("check", small_case, *HEAP_AND_BLANKET)
-    assert "; 2.17 m thick on average, 1 m in the median and 8 m at most (vertical)\n" in text
-    assert "; 2 across in the median and 16 at most; " in text
-    assert "median thickness of body block, 1 m, there are too few particles to resolve shear and thinning (" in text
 
 
 @pytest.mark.parametrize(("end", "steps", "rows"), [(0.2005, 200, 5), (0.2006, 201, 6), (0.2503, 250, 6)])

@@ -32,6 +32,12 @@ class RefusedError(Exception):
     """The message of a refused file."""
 
 
+def volume_in(file: Path) -> float:
+    """Return the sum of a raster of thickness on cells of the DEM [m3]."""
+    with rasterio.open(file) as opened:
+        return float(opened.read(1, masked=True).filled(0.0).sum()) * odd.CELL**2
+
+
 class Reader:
     """Runs a command with one odd file, and returns the volume that it reads [m3]."""
 
@@ -90,7 +96,7 @@ class Reader:
             row = round((odd.SOUTH + odd.ROWS * odd.CELL - file.transform.f) / odd.CELL)
             expected = odd.heights()[row : row + file.height, column : column + file.width]
             found = file.read(1, masked=True)
-            assert np.abs(found - expected).max() < 0.01
+            assert np.abs(found - expected).max() < 0.01 and file.units[0] in (None, "m")
         return float(self.program.json("check", made)["bodies"][0]["volume_m3"])
 
     def scarp(self, dem: Path, within: Path) -> float:
@@ -98,8 +104,7 @@ class Reader:
         output = self.folder / "scarp.tif"
         if scarp_command([str(dem), "--plane", PLANE, "--within", str(within), "--output", str(output)]):
             raise RefusedError(self.capsys.readouterr().err)
-        with rasterio.open(output) as file:
-            return float(file.read(1).sum()) * odd.CELL**2
+        return volume_in(output)
 
     @staticmethod
     def scarp_function(dem: Path, within: Path) -> float:
@@ -109,10 +114,6 @@ class Reader:
             return scarp(dem, plane, within=within).volume
         except ReportError as error:
             raise RefusedError(str(error)) from error
-
-
-def new_with_dem(reader: Reader, file: Path) -> float:
-    return reader.new(file, reader.release, "--thickness", odd.THICK)
 
 
 def check_with_dem(reader: Reader, file: Path) -> float:
@@ -125,8 +126,7 @@ def run_with_dem(reader: Reader, file: Path) -> float:
     """Return the volume in the maps of a run of one step."""
     words = sets(terrain__file=file, terrain__smooth=0, time__end=1e-3, grid__cell=20.0)
     reader.called("run", reader.case, "--output", reader.folder / "run", *words)
-    with rasterio.open(reader.folder / "run" / "maps" / "release.tif") as file_of_release:
-        return float(file_of_release.read(1, masked=True).filled(0.0).sum()) * odd.CELL**2
+    return volume_in(reader.folder / "run" / "maps" / "release.tif")
 
 
 def section_with_dem(reader: Reader, file: Path) -> float:
@@ -139,37 +139,9 @@ def section_with_dem(reader: Reader, file: Path) -> float:
     return odd.FULL if np.abs(terrain - (1500.0 - 0.5 * (105.0 + distance))).max() < 0.01 else 0.0
 
 
-def block_with_dem(reader: Reader, file: Path) -> float:
-    return reader.block({}, terrain__file=file)
-
-
 def simulation_with_dem(reader: Reader, file: Path) -> float:
     surface = {"surface": str(reader.case.parent / "before.tif")}
     return reader.simulated(terrain__file=str(file), terrain__smooth=0, body__slide__thickness=surface)
-
-
-def scarp_with_dem(reader: Reader, file: Path) -> float:
-    return reader.scarp(file, reader.release)
-
-
-def scarp_function_with_dem(reader: Reader, file: Path) -> float:
-    return reader.scarp_function(file, reader.release)
-
-
-def new_with_thickness(reader: Reader, file: Path) -> float:
-    return reader.new(reader.dem, file)
-
-
-def check_with_thickness(reader: Reader, file: Path) -> float:
-    return reader.checked(body__slide__thickness=f'{{ raster = "{file}" }}')
-
-
-def block_with_thickness(reader: Reader, file: Path) -> float:
-    return reader.block({}, body__slide__thickness=f'{{ raster = "{file}" }}')
-
-
-def simulation_with_thickness(reader: Reader, file: Path) -> float:
-    return reader.simulated(body__slide__thickness={"raster": str(file)})
 
 
 def simulation_with_bed(reader: Reader, file: Path) -> float:
@@ -188,32 +160,7 @@ def probability_of_thickness(reader: Reader, file: Path) -> float:
     other = odd.raster(reader.folder / "other.tif", odd.thickness())
     if probability_command([str(file), str(other), "--output", str(output)]):
         raise RefusedError(reader.capsys.readouterr().err)
-    with rasterio.open(output / "thickness_p90.tif") as file_of_quantile:
-        return float(file_of_quantile.read(1, masked=True).filled(0.0).sum()) * odd.CELL**2
-
-
-def new_with_polygons(reader: Reader, file: Path) -> float:
-    return reader.new(reader.dem, file, "--thickness", odd.THICK)
-
-
-def check_with_polygons(reader: Reader, file: Path) -> float:
-    return reader.checked(body__slide__release=file)
-
-
-def substrate_with_polygons(reader: Reader, file: Path) -> float:
-    return reader.substrate(substrate__ice__outline=file)
-
-
-def simulation_with_polygons(reader: Reader, file: Path) -> float:
-    return reader.simulated(body__slide__release=str(file))
-
-
-def scarp_with_polygons(reader: Reader, file: Path) -> float:
-    return reader.scarp(reader.dem, file)
-
-
-def scarp_function_with_polygons(reader: Reader, file: Path) -> float:
-    return reader.scarp_function(reader.dem, file)
+    return volume_in(output / "thickness_p90.tif")
 
 
 def score_with_polygons(reader: Reader, file: Path) -> float:
@@ -223,10 +170,6 @@ def score_with_polygons(reader: Reader, file: Path) -> float:
     except ReportError as error:
         raise RefusedError(str(error)) from error
     return float(areas[-1, :2].sum()) * odd.THICK
-
-
-def substrate_with_codes(reader: Reader, file: Path) -> float:
-    return reader.substrate(substrate__ice__raster=file, substrate__ice__code=int(odd.THICK))
 
 
 def check_with_probe(reader: Reader, file: Path) -> float:
@@ -265,20 +208,36 @@ def reader(thawslide: Program, tmp_path: Path, plain: Path, capsys: pytest.Captu
     return Reader(thawslide, tmp_path, plain, capsys)
 
 
-WITH_DEM = [
-    new_with_dem, check_with_dem, run_with_dem, block_with_dem, simulation_with_dem, section_with_dem,
-    scarp_with_dem, scarp_function_with_dem,
-]  # fmt: skip
-WITH_THICKNESS = [
-    new_with_thickness, check_with_thickness, block_with_thickness, simulation_with_thickness, simulation_with_bed,
-    probability_of_thickness,
-]  # fmt: skip
-WITH_POLYGONS = [
-    new_with_polygons, check_with_polygons, simulation_with_polygons, substrate_with_polygons, scarp_with_polygons,
-    scarp_function_with_polygons, score_with_polygons,
-]  # fmt: skip
-WITH_LINE = [check_with_probe, block_with_path, section_with_line]
 Read = Callable[[Reader, Path], float]
+# Readers of each kind of file, by name.
+WITH_DEM: dict[str, Read] = {
+    "new": lambda reader, file: reader.new(file, reader.release, "--thickness", odd.THICK),
+    "check": check_with_dem,
+    "run": run_with_dem,
+    "block": lambda reader, file: reader.block({}, terrain__file=file),
+    "simulation": simulation_with_dem,
+    "section": section_with_dem,
+    "scarp": lambda reader, file: reader.scarp(file, reader.release),
+    "scarp_function": lambda reader, file: reader.scarp_function(file, reader.release),
+}
+WITH_THICKNESS: dict[str, Read] = {
+    "new": lambda reader, file: reader.new(reader.dem, file),
+    "check": lambda reader, file: reader.checked(body__slide__thickness=f'{{ raster = "{file}" }}'),
+    "block": lambda reader, file: reader.block({}, body__slide__thickness=f'{{ raster = "{file}" }}'),
+    "simulation": lambda reader, file: reader.simulated(body__slide__thickness={"raster": str(file)}),
+    "bed": simulation_with_bed,
+    "probability": probability_of_thickness,
+}
+WITH_POLYGONS: dict[str, Read] = {
+    "new": lambda reader, file: reader.new(reader.dem, file, "--thickness", odd.THICK),
+    "check": lambda reader, file: reader.checked(body__slide__release=file),
+    "simulation": lambda reader, file: reader.simulated(body__slide__release=str(file)),
+    "substrate": lambda reader, file: reader.substrate(substrate__ice__outline=file),
+    "scarp": lambda reader, file: reader.scarp(reader.dem, file),
+    "scarp_function": lambda reader, file: reader.scarp_function(reader.dem, file),
+    "score": score_with_polygons,
+}
+WITH_LINE: dict[str, Read] = {"check": check_with_probe, "block": block_with_path, "section": section_with_line}
 
 
 def require(reader: Reader, read: Read, file: Path, expected: odd.Expected) -> None:
@@ -292,35 +251,37 @@ def require(reader: Reader, read: Read, file: Path, expected: odd.Expected) -> N
 
 
 @pytest.mark.parametrize("name", odd.RASTERS | odd.PLACES)
-@pytest.mark.parametrize("read", WITH_DEM, ids=lambda read: read.__name__)
-def test_dem(reader: Reader, read: Read, name: str) -> None:
+@pytest.mark.parametrize("read", WITH_DEM)
+def test_dem(reader: Reader, read: str, name: str) -> None:
     write, expected = (odd.RASTERS | odd.PLACES)[name]
-    require(reader, read, write(reader.folder / "given" / "odd.tif", odd.heights()), expected)
+    require(reader, WITH_DEM[read], write(reader.folder / "given" / "odd.tif", odd.heights()), expected)
 
 
 @pytest.mark.parametrize("name", odd.RASTERS)
-@pytest.mark.parametrize("read", WITH_THICKNESS, ids=lambda read: read.__name__)
-def test_thickness(reader: Reader, read: Read, name: str) -> None:
-    write, expected = (odd.RASTERS | (odd.BEDS if read is simulation_with_bed else {}))[name]
-    require(reader, read, write(reader.folder / "given" / "odd.tif", odd.thickness()), expected)
+@pytest.mark.parametrize("read", WITH_THICKNESS)
+def test_thickness(reader: Reader, read: str, name: str) -> None:
+    write, expected = (odd.RASTERS | (odd.BEDS if read == "bed" else {}))[name]
+    require(reader, WITH_THICKNESS[read], write(reader.folder / "given" / "odd.tif", odd.thickness()), expected)
 
 
 @pytest.mark.parametrize("name", odd.RASTERS)
 def test_codes_of_a_substrate(reader: Reader, name: str) -> None:
+    def read(reader: Reader, file: Path) -> float:
+        return reader.substrate(substrate__ice__raster=file, substrate__ice__code=int(odd.THICK))
+
     write, expected = (odd.RASTERS | odd.CODES)[name]
-    file = write(reader.folder / "given" / "odd.tif", odd.thickness())
-    require(reader, substrate_with_codes, file, expected)
+    require(reader, read, write(reader.folder / "given" / "odd.tif", odd.thickness()), expected)
 
 
 @pytest.mark.parametrize("name", odd.LINES)
-@pytest.mark.parametrize("read", WITH_LINE, ids=lambda read: read.__name__)
-def test_line(reader: Reader, read: Read, name: str) -> None:
+@pytest.mark.parametrize("read", WITH_LINE)
+def test_line(reader: Reader, read: str, name: str) -> None:
     write, expected = odd.LINES[name]
-    require(reader, read, write(reader.folder / "given" / name), expected)
+    require(reader, WITH_LINE[read], write(reader.folder / "given" / name), expected)
 
 
 @pytest.mark.parametrize("name", odd.POLYGONS)
-@pytest.mark.parametrize("read", WITH_POLYGONS, ids=lambda read: read.__name__)
-def test_polygons(reader: Reader, read: Read, name: str) -> None:
+@pytest.mark.parametrize("read", WITH_POLYGONS)
+def test_polygons(reader: Reader, read: str, name: str) -> None:
     write, expected = odd.POLYGONS[name]
-    require(reader, read, write(reader.folder / "given" / name), expected)
+    require(reader, WITH_POLYGONS[read], write(reader.folder / "given" / name), expected)

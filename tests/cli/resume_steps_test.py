@@ -83,15 +83,6 @@ def test_time_continues_when_steps_become_adaptive_and_fixed_again(thawslide: Pr
     assert np.diff(rows["time_s"][rows["time_s"] >= 0.25]) == pytest.approx(0.001, rel=1e-6)
 
 
-def test_later_times_include_a_shorter_last_step(ran: Ran, thawslide: Program) -> None:
-    run = ran(*sets(time__end=0.2007, time__history_interval=0))
-    assert history(run)["time_s"][-1] == 0.2007
-    thawslide.ok("resume", run, "--end", 0.2107)
-    times = history(run)["time_s"]
-    assert times[-1] == pytest.approx(0.2107, abs=1e-12)
-    assert times[202] - times[201] == pytest.approx(0.001, rel=1e-9)
-
-
 def test_other_steps_are_bitwise_identical_after_a_kill(thawslide: Program, done: Path, tmp_path: Path) -> None:
     words = ["--end", 0.3, *sets(time__step=0.0007, checkpoint__interval=0.03)]
     twice = tmp_path / "twice"

@@ -34,26 +34,6 @@ def test_areas_of_the_ground_and_gaps_are_reported(thawslide: Program, small_cas
         assert printed.count(f"warning: {note}") == 1, words
 
 
-def test_overlaps_are_refused(thawslide: Program, small_case: Path) -> None:
-    case = small_case / "case.toml"
-    case.write_text(case.read_text() + GLACIER + MORAINE.replace("x_max = 5.0", "x_max = 13.0"))
-    assert "the substrates moraine and glacier overlap" in thawslide.error("check", small_case)
-
-
-def test_a_run_has_the_friction_of_its_substrate(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    words = ["--set", "case.gravity_tilt=15", "--set", "basal.friction_angle=30", "--set", "time.end=0.5"]
-    distance = {}
-    for name, text in (("rock", ""), ("ice", GLACIER.replace("12.0", "2.0"))):
-        case = small_case / f"{name}.toml"
-        case.write_text((small_case / "case.toml").read_text() + text)
-        run = tmp_path / name
-        thawslide.ok("run", case, "--output", run, *words)
-        distance[name] = history(run)["mean_displacement_m"][-1]
-    assert distance["ice"] > 0.1
-    assert distance["rock"] < 0.02
-    assert "[substrate.glacier]\nx_min = 2.0  # m\n" in (tmp_path / "ice" / "case.toml").read_text()
-
-
 WIDE = ROOT / "cases" / "lamplugh-columns" / "wide-valley.toml"
 
 
@@ -75,13 +55,6 @@ def test_resolved_case_of_a_run_has_the_width_and_resume_keeps_it(ran: Ran, thaw
     message = thawslide.error("resume", folder, "--set", "time.end=0.2", "--set", "case.width=617.0")
     assert "error: case.width cannot be changed on resume" in message
     thawslide.ok("resume", folder, "--set", "time.end=0.2", "--threads", "1")
-
-
-def test_block_has_one_width(thawslide: Program) -> None:
-    message = thawslide.error("block", WIDE)
-    assert message.endswith(
-        "wide-valley.toml:6:9: the block model has one width. Give case.width as a number, or use `thawslide run`.\n"
-    )
 
 
 # A stiff block slides down a slope, without friction up to a substrate. While the block crosses the border, the
