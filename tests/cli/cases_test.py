@@ -159,9 +159,7 @@ def test_page_case_is_valid(thawslide: Program, page_case: Path) -> None:
     assert "friction_coefficient" not in outcome.stdout + outcome.stderr, "no warning about its friction"
 
 
-def test_page_case_as_block_stays_below_its_terminal_velocity(
-    thawslide: Program, page_case: Path, tmp_path: Path
-) -> None:
+def test_page_case_stays_below_its_terminal_velocity(thawslide: Program, page_case: Path, tmp_path: Path) -> None:
     """On 30 degrees the release, 20 m along the vertical, cannot exceed sqrt(xi h cos (sin - mu cos))."""
     fastest = {}
     for turbulence in ("500", "100"):

@@ -7,7 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -228,15 +228,6 @@ class Slope:
         assert set(self.folder.rglob("*")) == before
         return message.replace(f"{self.folder}/", "")
 
-    def refused(self, message: str, *words: object, **more: Any) -> None:
-        """Fail unless `new` prints exactly this error and writes nothing."""
-        assert self.error(*words, **more) == f"error: {message}\n"
-
-    def edit(self, old: str, new: str) -> None:
-        """Replace a text in the case file."""
-        file = self.case / "case.toml"
-        file.write_text(file.read_text().replace(old, new, 1))
-
 
 @pytest.fixture
 def slope(thawslide: Program, tmp_path: Path) -> Slope:
@@ -307,11 +298,6 @@ def datasets(file: Path) -> dict[str, np.ndarray]:
     with h5py.File(file) as opened:
         opened.visititems(collect)
     return found
-
-
-def assert_same_files(one: Path, other: Path, names: Iterable[Path | str]) -> None:
-    for name in names:
-        assert (one / name).read_bytes() == (other / name).read_bytes(), name
 
 
 def assert_identical(one: Path, other: Path) -> None:

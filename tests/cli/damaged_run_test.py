@@ -154,21 +154,6 @@ def test_a_damaged_run_json_is_reported_with_a_remedy(thawslide: Program, killed
         )
 
 
-def test_resume_removes_only_temporary_files_of_the_run(thawslide: Program, killed: Path, tmp_path: Path) -> None:
-    elsewhere = tmp_path / "elsewhere"
-    elsewhere.mkdir()
-    foreign = elsewhere / ".data.12.thawslide-part"
-    own = [killed / "notes.part", killed / "inputs" / "a.9.part", killed / "inputs" / "valley.1.part.csv"]
-    names = [".history.csv.17.thawslide-part", "inputs/.dem.17.thawslide-part.tif", "inputs/.a.csv.9.thawslide-part"]
-    torn = [killed / name for name in names]
-    (killed / "maps").symlink_to(elsewhere)
-    for file in (foreign, *own, *torn):
-        file.write_text("half")
-    resumed(thawslide, killed)
-    assert foreign.exists() and all(file.exists() for file in own)
-    assert not any(file.exists() for file in torn)
-
-
 def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path) -> None:
     mark_killed(done)
     ground = (done / "terrain.csv").read_bytes()
@@ -178,12 +163,7 @@ def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path)
 
 
 def test_missing_maps_of_the_terrain_are_written_again(ran: Ran, thawslide: Program) -> None:
-    words = sets(
-        grid__cell=60,
-        time__stepping='"adaptive"',
-        time__end=0.1,
-        time__output_interval=0.1,
-    )
+    words = sets(grid__cell=60, time__stepping='"adaptive"', time__end=0.1, time__output_interval=0.1)
     run = ran(*words, case=conftest.LAMPLUGH.parent / "valley3d")
     names = ("terrain.tif", "release.tif", "release.qml", "ground.tif")
     maps = {name: (run / "maps" / name).read_bytes() for name in names}

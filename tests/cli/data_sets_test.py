@@ -82,10 +82,8 @@ def contents(folder: Path) -> dict[str, bytes]:
 @pytest.fixture
 def case(thawslide: Program, tmp_path: Path, given: Path) -> Path:
     """Return a case made of the release, whose original files no longer exist."""
-    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
-    words = [] if given.suffix in (".tif", ".asc") else ["--thickness", odd.THICK]
     before = contents(given.parent)
-    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", given, *words)
+    thawslide.ok(*odd.new_words(tmp_path, given))
     assert contents(given.parent) == before
     return tmp_path / "slide"
 
@@ -121,9 +119,7 @@ def test_digest_of_a_sweep_depends_on_every_file(case: Path, given: Path) -> Non
 
 
 def test_file_added_to_an_input_of_a_run_is_refused(thawslide: Program, tmp_path: Path) -> None:
-    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
-    release = odd.shapefile(tmp_path / "release.shp", [[odd.ring(odd.SQUARE)]])
-    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    thawslide.ok(*odd.new_words(tmp_path, odd.shapefile(tmp_path / "release.shp", [[odd.ring(odd.SQUARE)]])))
     run = tmp_path / "run"
     thawslide.ok("run", tmp_path / "slide", "--output", run, *sets(time__end=0.02, grid__cell=20.0))
     mark_killed(run)
@@ -133,11 +129,10 @@ def test_file_added_to_an_input_of_a_run_is_refused(thawslide: Program, tmp_path
 
 
 def test_files_of_one_name_are_refused(thawslide: Program, tmp_path: Path) -> None:
-    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
     release = odd.shapefile(tmp_path / "a" / "area.shp", [[odd.ring(odd.SQUARE)]])
-    thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    thawslide.ok(*odd.new_words(tmp_path, release))
     thick = odd.raster(tmp_path / "b" / "area.tif", odd.thickness())
     thawslide.ok("check", tmp_path / "slide", "--set", f'body.slide.thickness={{ raster = "{thick}" }}')
     grid = with_statement(tmp_path / "b" / "area.asc")
@@ -149,13 +144,12 @@ def test_files_of_one_name_are_refused(thawslide: Program, tmp_path: Path) -> No
 
 def test_edits_of_an_open_geopackage_stay_where_they_are(thawslide: Program, tmp_path: Path) -> None:
     """Also the copies in temporary folders are removed."""
-    dem = odd.raster(tmp_path / "dem.tif", odd.heights())
     (tmp_path / "given").mkdir()
     (tmp_path / "temporary").mkdir()
     release = odd.open_elsewhere(tmp_path / "given" / "open.gpkg")
     before = contents(release.parent)
     environment = thawslide.environment | {"TMPDIR": str(tmp_path / "temporary")}
-    words = ["new", tmp_path / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK]
+    words = odd.new_words(tmp_path, release)
     outcome = thawslide(*words, environment=environment)
     assert "a release of 400,000 m3" in outcome.stdout
     assert contents(release.parent) == before and list((tmp_path / "temporary").iterdir()) == []

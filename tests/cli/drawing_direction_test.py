@@ -92,14 +92,6 @@ def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: 
     assert (plain["block"]["driving_traction_Pa"][:1] > 0.0).all()
 
 
-def test_discharge_is_positive_downstream(ran: Ran, tmp_path: Path) -> None:
-    for number, line in enumerate(([(201.0, 40.0), (201.0, 260.0)], [(201.0, 260.0), (201.0, 40.0)])):
-        case = write_case(tmp_path / f"case{number}")
-        write_line(case / "across.geojson", line)
-        run = ran("--threads", 1, *sets(**COULOMB), case=case, name=f"run{number}")
-        assert columns_of(run / "probes.csv")["across_discharge_m3_s"][-1] > 100.0
-
-
 @pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])
 def test_the_path_start_does_not_affect_the_safety_factor(thawslide: Program, tmp_path: Path, start: float) -> None:
     """The release extends from 105 to 205 m; paths start before, within and below it."""
@@ -183,9 +175,7 @@ def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: 
     (case.parent / "profile.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
     for command in ("check", "block"):
         message = thawslide.error(command, case)
-        assert (
-            "profile.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m and more." in message
-        )
+        assert "profile.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m " in message
 
 
 def data_folder(name: str) -> Path:
@@ -230,15 +220,3 @@ def test_a_path_next_to_the_release_measures_the_front_only(thawslide: Program, 
         message = thawslide.error("section", tmp_path / "section", *ground, "--line", folder / f"line-{line}.gpkg")
         assert not (tmp_path / "section").exists()
         assert f"line-{line}.gpkg: the line does not cross the release" in message
-
-
-def test_distances_count_from_the_start_of_the_path(thawslide: Program, tmp_path: Path) -> None:
-    """One path starts 390 m further downhill, and distances along it are smaller by 390 m."""
-    folder, fronts = data_folder("g03-path-uphill"), {}
-    for line in ("down", "late"):
-        file = tmp_path / f"{line}.csv"
-        words = sets(maps__path=folder / f"line-{line}.gpkg")
-        thawslide.ok("block", folder / "case-3d.toml", *words, "--output", file)
-        fronts[line] = columns_of(file)["front_position_m"]
-    assert fronts["down"][0] == pytest.approx(270.0, abs=1e-6), "the release ends at x = 500300, the path starts at 30"
-    assert fronts["late"] == pytest.approx(fronts["down"] - 390.0, abs=1e-3)

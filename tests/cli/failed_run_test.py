@@ -6,7 +6,7 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import FALL, LAMPLUGH, Program, history, run_facts, sets, snapshot_files
+from conftest import FALL, LAMPLUGH, Program, edit, history, run_facts, sets, snapshot_files
 
 PATTERN = (
     r"error: the run failed at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
@@ -47,27 +47,13 @@ def test_a_body_that_leaves_the_domain_upward_fails_the_run(thawslide: Program, 
     assert reported[8] == "the slide ran further than [grid] min and max allow; widen them in its direction."
 
 
-def test_a_material_too_soft_for_its_weight_is_named_as_cause(thawslide: Program, tmp_path: Path) -> None:
-    soft = {"material__rock_ice__youngs_modulus": 0.5}
-    reported = expect_failure(thawslide, LAMPLUGH, tmp_path / "run", time__end=20, **soft)
-    assert reported[8] == (
-        "material 'rock_ice' is too soft (youngs_modulus 0.5 Pa) and collapses under its own weight. Typical values "
-        "for broken rock and ice are 1e7 Pa or more."
-    )
-
-
 def test_a_step_too_long_for_the_load_is_named_as_cause(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     # A fall at 1e5 m/s2 is too fast for a step of 4 ms; this is not visible at the start.
     message = thawslide.error("run", small_case, "--output", tmp_path / "guarded", *sets(**FALL), code=3)
-    assert re.fullmatch(
-        r"error: the run failed at t = \S+ s \(step \d+\): energy grew by \S+ J per m of width without a physical "
-        r"cause, \S+ % of all energy so far \(guards\.energy_growth allows 25 %\)\. The fastest particle, \d+ of body "
-        r"'block' at \(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s on average\. Likely cause: the step is too "
-        r"long for the material, the material is too soft for its load, or it has separated\. Try half of time\.step, "
-        r"a larger viscosity_number or viscosity_time of the material, or mechanics\.transfer = \"blend\" with "
-        r"mechanics\.pic_fraction = 0\.02\.\n",
-        message,
-    ), message
+    start = (
+        r"error: the run failed at t = \S+ s \(step \d+\): energy grew by \S+ J per m of width without a physical cause"
+    )
+    assert re.match(start, message) and "of body 'block' at (" in message, message
     reported = expect_failure(thawslide, small_case, tmp_path / "run", **FALL, guards__energy_growth="inf")
     assert reported[7] == "its volume ratio is not positive"
     assert reported[8].startswith("the step is too long for the material")
@@ -77,21 +63,15 @@ def test_a_step_too_long_for_the_load_is_named_as_cause(thawslide: Program, smal
     ("more", "advice"),
     [
         ({"mechanics__transfer": "blend", "mechanics__pic_fraction": 0.001}, "or a larger mechanics.pic_fraction."),
-        (
-            {"material__rock__viscosity_time": 1e-5},
-            "viscosity_number or viscosity_time of the material, or mechanics.transfer",
-        ),
+        ({"material__rock__viscosity_time": 1e-5}, "viscosity_number or viscosity_time of the material, or mechanics."),
         ({"time__stepping": "adaptive", "time__safety": 0.9}, "Try half of time.safety, "),
     ],
 )
 def test_advice_names_no_value_that_is_set(
     thawslide: Program, small_case: Path, tmp_path: Path, more: dict[str, object], advice: str
 ) -> None:
-    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *sets(**{**FALL, **more}))
-    if outcome.returncode == 3 and "Likely cause" in outcome.stderr:
-        assert advice in outcome.stderr
-    else:
-        pytest.fail(outcome.stderr + outcome.stdout)
+    words = ["--output", tmp_path / "run", *sets(**{**FALL, **more})]
+    assert advice in thawslide.error("run", small_case, *words, code=3).partition("Likely cause")[2]
 
 
 # A block at 100 m/s whose friction pore pressure does not reduce: a band of 1 mm boils dry within half a second.
@@ -103,16 +83,12 @@ FAST = sets(
 RunWarnings = Callable[..., list[str]]
 
 
-def notes(stdout: str) -> list[str]:
-    return re.findall(r"^warning: at .*$", stdout, flags=re.MULTILINE)
-
-
 @pytest.fixture
 def warnings_of_run(thawslide: Program, small_case: Path, tmp_path: Path) -> RunWarnings:
     def run(*more: str) -> list[str]:
-        case = small_case / "case.toml"
-        case.write_text(case.read_text().replace("friction_angle = 10.0\n", ""))
-        return notes(thawslide.ok("run", case, "--output", tmp_path / "run", "--overwrite", *more))
+        edit(small_case / "case.toml", "friction_angle = 10.0\n", "")
+        printed = thawslide.ok("run", small_case, "--output", tmp_path / "run", *more)
+        return re.findall(r"^warning: at .*$", printed, flags=re.MULTILINE)
 
     return run
 
@@ -133,17 +109,17 @@ def test_columns_that_boil_dry_are_reported_once(warnings_of_run: RunWarnings) -
     assert "no longer limits temperature and friction" in note
 
 
-def test_columns_without_steam_do_not_boil(warnings_of_run: RunWarnings) -> None:
-    notes = warnings_of_run(*FAST, *sets(heat__steam="false"))
-    assert limits(notes)[-1] >= 1000
-    for note in notes:
-        assert "Nothing boils, as heat.steam is false: temperatures above 100 C are not physical" in note
-
-
-def test_particles_of_the_scaled_band_do_not_boil(warnings_of_run: RunWarnings) -> None:
-    notes = warnings_of_run(*FAST, *sets(band__model="scaled", band__thickness=0.01))
-    assert limits(notes)
-    assert "Nothing in the model boils: temperatures above 100 C are not physical" in notes[0]
+@pytest.mark.parametrize(
+    ("words", "highest", "text"),
+    [
+        (sets(heat__steam="false"), 1000, "Nothing boils, as heat.steam is false"),
+        (sets(band__model="scaled", band__thickness=0.01), 500, "Nothing in the model boils"),
+    ],
+)
+def test_without_steam_nothing_boils(warnings_of_run: RunWarnings, words: list[str], highest: int, text: str) -> None:
+    notes = warnings_of_run(*FAST, *words)
+    assert limits(notes)[-1] >= highest
+    assert all(f"{text}: temperatures above 100 C are not physical" in note for note in notes)
 
 
 def test_a_cold_base_has_no_warning(warnings_of_run: RunWarnings) -> None:

@@ -1,61 +1,29 @@
 """Links, pipes, folders and foreign files in place of a run's files: nothing outside changes, nothing blocks."""
 
-import json
 import os
 from pathlib import Path
 
 import pytest
-from conftest import Program, Ran, Slope, content_of, mark_killed, run_facts, sets, snapshot_files, with_profile
+from conftest import Program, Ran, Slope, content_of, run_facts, sets
+from faults import before_its_first_checkpoint
 from terrain_files import SOUTH, WEST
 
 NO_FILE = "a regular file is needed. Replace it by the file itself, or remove it.\n"
 
 
-@pytest.fixture
-def victim(tmp_path: Path) -> Path:
-    path = tmp_path / "victim"
-    path.write_text("mine\n")
-    return path
-
-
-def reset_to_start(run: Path) -> None:
-    """Change a run to one that was killed before its first checkpoint."""
-    facts = run_facts(run) | {"simulated_time_s": 0.0, "steps": 0}
-    (run / "run.json").write_text(json.dumps(facts))
-    for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv", "probes.csv"):
-        (run / name).unlink(missing_ok=True)
-
-
-def test_a_link_in_place_of_rows_is_replaced(thawslide: Program, small_case: Path, killed: Path, victim: Path) -> None:
-    reset_to_start(killed)
-    rows = killed / "history.csv"
-    rows.symlink_to(victim)
-    assert "it starts again" in thawslide.ok("resume", killed)
-    assert victim.read_text() == "mine\n" and not rows.is_symlink() and rows.read_text().count("\n") > 10
-    complete = rows.read_bytes()
-    mark_killed(killed)
-    rows.rename(victim)
-    rows.symlink_to(victim)
-    thawslide.ok("resume", killed)
-    assert victim.read_bytes() == complete and not rows.is_symlink() and rows.read_bytes() == complete
-    rows.unlink()
-    rows.symlink_to(victim)
-    thawslide.ok("run", small_case, "--output", killed, "--overwrite")
-    assert victim.read_bytes() == complete and not rows.is_symlink()
-
-
 def test_a_3d_run_changes_no_foreign_files(
-    ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope, victim: Path
+    ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope
 ) -> None:
     """A link in place of probes is replaced; a replaced run is removed with all its maps, and no others."""
-    folder = tmp_path / "slide"
+    folder, victim = tmp_path / "slide", tmp_path / "victim"
+    victim.write_text("mine\n")
     slope.ok()
     with (folder / "case.toml").open("a") as case:
         case.write(f"\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
     words = sets(time__end=0.2, time__output_interval=0.1)
     run = ran(*words, case=folder)
-    mark_killed(run)
-    reset_to_start(run)
+    before_its_first_checkpoint(run)
+    (run / "probes.csv").unlink()
     (run / "probes.csv").symlink_to(victim)
     thawslide.ok("resume", run)
     assert victim.read_text() == "mine\n" and not (run / "probes.csv").is_symlink()
@@ -85,25 +53,6 @@ def test_a_folder_of_other_files_is_refused(thawslide: Program, small_case: Path
     assert f"its run.json is damaged, or was written by another program. {remedy}" in message
     (folder / "run.json").unlink()
     assert content_of(folder) == before
-
-
-def test_replacing_a_run_keeps_foreign_files(thawslide: Program, small_case: Path, done: Path) -> None:
-    mine = [done / name for name in ("snapshots/photo.jpg", "inputs/notes.txt", "maps/alps.tif", "figures/photo.png")]
-    for file in mine:
-        file.parent.mkdir(exist_ok=True)
-        file.write_text("mine\n")
-    thawslide.ok("run", small_case, "--output", done, "--overwrite", *sets(time__end=0.05))
-    assert all(file.read_text() == "mine\n" for file in mine)
-    assert len(snapshot_files(done)) == 2
-
-
-@pytest.mark.parametrize("name", ["valley.1.part.csv", "x.7.part"])
-def test_an_input_can_have_the_suffix_part(ran: Ran, thawslide: Program, small_case: Path, name: str) -> None:
-    with_profile(small_case, name=name)
-    run = ran()
-    mark_killed(run)
-    thawslide.ok("resume", run)
-    assert (run / "inputs" / name).is_file()
 
 
 def test_a_missing_checkpoint_is_reported(thawslide: Program, killed: Path) -> None:

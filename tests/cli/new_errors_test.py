@@ -1,6 +1,5 @@
 """Errors about unusable DEMs and releases, and about slides that leave the known terrain."""
 
-import json
 import math
 import re
 import tomllib
@@ -10,8 +9,7 @@ from typing import Any
 
 import pytest
 import rasterio
-from conftest import Program, Ran, Slope, release_volume, run_facts, sets
-from rasterio.transform import from_origin
+from conftest import Program, Ran, Slope, edit, release_volume, run_facts, sets
 from terrain_files import CELL, COLUMNS, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
 
 
@@ -19,28 +17,8 @@ def raster(slope: Slope, thickness: float) -> Path:
     return write_thickness(slope.folder / "thick.tif", slope(), thickness)
 
 
-def degrees(slope: Slope) -> Path:
-    dem = slope("degrees.tif", crs="EPSG:4326")
-    with rasterio.open(dem, "r+") as file:
-        file.transform = from_origin(7.9, 46.5, 1e-4, 1e-4)
-    return dem
-
-
 def rectangle(slope: Slope, name: str, east: float, north: float, *size: float) -> Path:
     return write_rectangle(slope.folder / f"{name}.geojson", WEST + east, SOUTH + north, *size)
-
-
-def edited(slope: Slope, edit: Callable[[list[dict[str, Any]]], object]) -> Path:
-    file = slope.release()
-    content = json.loads(file.read_text())
-    edit(content["features"])
-    file.write_text(json.dumps(content))
-    return file
-
-
-def cross(features: list[dict[str, Any]]) -> None:
-    ring = features[0]["geometry"]["coordinates"][0]
-    ring[1], ring[2] = ring[2], ring[1]
 
 
 TOO_LARGE = """--release: {}: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume allows
@@ -66,7 +44,6 @@ EDGE = """--release: edge.geojson: the release reaches the outermost points of t
 OUTSIDE = "--release: outside.geojson: the release lies outside the DEM, by 4,230 m in the east; found: x from 417000"
 PARTLY_OUTSIDE = "--release: outside.geojson: the release lies partly outside the DEM, by 50 m in the east; found:"
 TINY = "--release: tiny.geojson: the release is smaller than a cell of the DEM (9 m2; 100 m2)"
-CROSSES = "--release: release.geojson: polygon 1 (slide) crosses itself at or near 412260 5160300."
 HELP = "Run with --help for more information.\n"
 COMMA = "allowed: a number above 0, without a unit; write a decimal point"
 # Messages of `new`, and its arguments. A text that ends with a line break is the whole message. Others are its start,
@@ -75,34 +52,21 @@ REFUSED: list[tuple[str, Callable[[Slope], dict[str, Any]]]] = [
     (RASTER, lambda slope: {"release": raster(slope, THICKNESS), "thickness": 3}),
     (TOO_LARGE("thick.tif", A_DEM), lambda slope: {"release": raster(slope, 1000 * THICKNESS), "thickness": None}),
     (TOO_LARGE("release.geojson", IN_ANOTHER_UNIT), lambda _: {"thickness": 1000 * THICKNESS}),
-    (
-        "--release: thick.tif: the thickness is not above 0",
-        lambda slope: {"release": raster(slope, 0.0), "thickness": None},
-    ),
+    ("--release: thick.tif: the thickness is not above 0",
+     lambda slope: {"release": raster(slope, 0.0), "thickness": None}),
     (NO_CRS, lambda slope: {"dem": slope("bare.tif", crs=None)}),
-    (
-        "--crs: EPSG:4326 is in degrees; ",
-        lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", "EPSG:4326"]},
-    ),
-    (
-        "--crs: '32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? ",
-        lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", 32632]},
-    ),
+    ("--crs: EPSG:4326 is in degrees; ",
+     lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", "EPSG:4326"]}),
+    ("--crs: '32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? ",
+     lambda slope: {"dem": slope("bare.tif", crs=None), "words": ["--crs", 32632]}),
     (WRONG_CRS, lambda slope: {"dem": slope("wrong.tif", crs="EPSG:4326")}),
-    ("--dem: degrees.tif: the coordinates are degrees", lambda slope: {"dem": degrees(slope)}),
     (MERCATOR.format("--dem: dem.tif:"), lambda slope: {"dem": slope(crs="EPSG:3857")}),
-    (
-        MERCATOR.format("--crs: dem.tif:").replace("-t_srs", "-s_srs EPSG:3857 -t_srs"),
-        lambda _: {"words": ["--crs", "EPSG:3857"]},
-    ),
-    (
-        "--dem: absent.tif: there is no such file. Correct the path.\n",
-        lambda slope: {"dem": slope.folder / "absent.tif"},
-    ),
-    (
-        "--release: absent.shp: there is no such file. Correct the path.\n",
-        lambda slope: {"release": slope.folder / "absent.shp"},
-    ),
+    (MERCATOR.format("--crs: dem.tif:").replace("-t_srs", "-s_srs EPSG:3857 -t_srs"),
+     lambda _: {"words": ["--crs", "EPSG:3857"]}),
+    ("--dem: absent.tif: there is no such file. Correct the path.\n",
+     lambda slope: {"dem": slope.folder / "absent.tif"}),
+    ("--release: absent.shp: there is no such file. Correct the path.\n",
+     lambda slope: {"release": slope.folder / "absent.shp"}),
     (NO_THICKNESS, lambda _: {"thickness": None}),
     (f"--thickness: 0 found; allowed: above 0. {HELP}", lambda _: {"thickness": 0}),
     (SWAPPED, lambda slope: {"dem": slope.release(), "release": slope(), "thickness": None}),
@@ -114,16 +78,10 @@ REFUSED: list[tuple[str, Callable[[Slope], dict[str, Any]]]] = [
     (PARTLY_OUTSIDE, lambda slope: {"release": rectangle(slope, "outside", 820.0, 0.0)}),
     (EDGE, lambda slope: {"release": rectangle(slope, "edge", 1.0, 100.0)}),
     (TINY, lambda slope: {"release": rectangle(slope, "tiny", 203.0, 252.0, 3.0, 3.0)}),
-    (CROSSES, lambda slope: {"release": edited(slope, cross)}),
-    ("--release: release.geojson: the layer is empty", lambda slope: {"release": edited(slope, list.clear)}),
-    (
-        "--release: release.geojson: polygon 1 (slide) has no geometry",
-        lambda slope: {"release": edited(slope, lambda features: features[0].update(geometry=None))},
-    ),
     ("--release: release.geojson: the release lies over nodata", lambda slope: {"dem": slope(hole=slice(20, 30))}),
     (f"--cut excludes --on-top. {HELP}", lambda _: {"words": ["--cut", "--on-top"]}),
     (f"--cell excludes --resolution. {HELP}", lambda _: {"words": ["--cell", 12, "--resolution", "fine"]}),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("start", "given"), REFUSED)
@@ -139,36 +97,6 @@ def test_crs_supplies_and_replaces_a_reference_system(slope: Slope) -> None:
     assert printed.startswith("note: wrong.tif is read as EPSG:32632, as set by --crs; the file specifies EPSG:4326\n")
 
 
-@pytest.mark.parametrize(
-    ("size", "begin", "end"),
-    [
-        (9000, "the values cannot be read", "The file seems to be damaged or truncated: copy it again."),
-        (
-            100, "the raster cannot be opened",
-            "Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is complete and readable.",
-        ),
-    ],
-)  # fmt: skip
-def test_a_truncated_dem_is_refused(slope: Slope, size: int, begin: str, end: str) -> None:
-    dem = slope()
-    dem.write_bytes(dem.read_bytes()[:size])
-    message = slope.error(dem=dem)
-    assert message.startswith(f"error: --dem: dem.tif: {begin}; GDAL says: "), message
-    assert message.endswith(f". {end}\n"), message
-
-
-@pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
-def test_an_unreadable_release_is_refused(slope: Slope, content: str) -> None:
-    broken = slope.folder / "broken.geojson"
-    broken.write_text(content)
-    message = slope.error(release=broken)
-    assert message.startswith("error: --release: broken.geojson: the file cannot be opened; GDAL says: "), message
-    assert message.endswith(
-        ". Allowed: Shapefile (with its .shx and .dbf), GeoPackage, GeoJSON or KML; check that the file is complete "
-        "and readable.\n"
-    ), message
-
-
 def test_a_release_too_thin_for_its_area_is_refused(slope: Slope) -> None:
     message = slope.error(thickness=0.3)
     assert re.search(
@@ -179,19 +107,13 @@ def test_a_release_too_thin_for_its_area_is_refused(slope: Slope) -> None:
     ), message
 
 
-def test_bodies_may_adjoin_but_not_overlap(ran: Ran, thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_bodies_may_adjoin_but_not_overlap(ran: Ran, thawslide: Program, slope: Slope) -> None:
     slope.ok()
     with (slope.case / "case.toml").open("a") as case:
         case.write('[body.toe]\nmaterial = "rock_ice"\nshape = "release"\nrelease = "toe.geojson"\nthickness = 12.0\n')
     write_rectangle(slope.case / "toe.geojson", WEST + 310.0, SOUTH + 250.0)
-    message = thawslide.error("run", slope.case, "--output", tmp_path / "run", "--set", "time.end=0.01")
-    line = 1 + (slope.case / "case.toml").read_text().splitlines().index('release = "toe.geojson"')
-    assert not (tmp_path / "run").exists()
-    assert message == (
-        f"error: {slope.case}/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 "
-        "about 412315, 5160300; allowed: bodies that touch or lie apart, but for slivers up to 12 m2, 0.1 % of the "
-        "smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).\n"
-    )
+    message = thawslide.error("check", slope.case)
+    assert ": body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 about 412315, 5160300; " in message
     write_rectangle(slope.case / "toe.geojson", WEST + 320.0, SOUTH + 250.0)
     assert release_volume(ran("--set", "time.end=0.01", case=slope.case)) == pytest.approx(
         WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9
@@ -202,7 +124,8 @@ def test_an_existing_folder_is_refused(slope: Slope) -> None:
     folder = slope.folder / "full"
     folder.mkdir()
     (folder / "notes.txt").write_text("mine")
-    slope.refused("full: it exists and is not an empty folder. Choose another name.", folder=folder)
+    message = slope.error(folder=folder)
+    assert message == "error: full: it exists and is not an empty folder. Choose another name.\n"
 
 
 CREATE_AGAIN = (
@@ -235,7 +158,7 @@ def stopping_distance(speed: str) -> float:
 
 
 def failed(thawslide: Program, slope: Slope, velocity: list[float], *patterns: str, **changes: object) -> re.Match[str]:
-    slope.edit("temperature = ", f"velocity = {velocity}\ntemperature = ")
+    edit(slope.case / "case.toml", "\ntemperature = ", f"\nvelocity = {velocity}\ntemperature = ")
     words = sets(basal__friction="constant", grid__leaving="stop", **changes)
     message = thawslide.error("run", slope.case, "--output", slope.folder / "run", *words, code=3)
     reported = next(filter(None, (re.fullmatch(pattern, message) for pattern in patterns)), None)

@@ -66,6 +66,12 @@ def raster(
     return file
 
 
+def new_words(folder: Path, release: Path) -> list[object]:
+    """Write the DEM; return the arguments of `thawslide` that create the case folder/slide."""
+    words = ["new", folder / "slide", "--dem", raster(folder / "dem.tif", heights()), "--release", release]
+    return words if release.suffix in (".tif", ".asc") else [*words, "--thickness", THICK]
+
+
 def masked(file: Path, values: Numbers) -> Path:
     """Write a raster with wrong values in a corner, which an internal mask excludes."""
     known = np.ones(values.shape, bool)

@@ -176,12 +176,6 @@ def test_a_case_larger_than_memory_is_refused_at_once(thawslide: Program, plain_
     assert outcome(str(coarser)).returncode == 0
 
 
-def test_an_error_on_the_step_names_modulus_and_density(thawslide: Program, plain_case: Path) -> None:
-    message = thawslide.error("check", plain_case, *sets(phases__rock_density=2.75, time__step=0.002))
-    assert "time.step is 0.002 s, above the limit of" in message
-    assert "with a Young's modulus of 1e+08 Pa and 277 kg/m3. Use a smaller time.step" in message
-
-
 VALLEY = ROOT / "cases" / "valley3d"
 
 

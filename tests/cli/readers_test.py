@@ -193,10 +193,9 @@ def section_with_line(reader: Reader, file: Path) -> float:
 def plain(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a plain DEM, the surface before the release, polygons, their case, and its run."""
     folder = tmp_path_factory.mktemp("plain")
-    dem = odd.raster(folder / "dem.tif", odd.heights())
     odd.raster(folder / "before.tif", odd.heights() + odd.thickness())
     release = odd.geojson(folder / "release.geojson", "Polygon", [odd.ring(odd.SQUARE)])
-    thawslide.ok("new", folder / "slide", "--dem", dem, "--release", release, "--thickness", odd.THICK)
+    thawslide.ok(*odd.new_words(folder, release))
     words = sets(time__end=1e-3, grid__cell=20.0, maps__cell=odd.CELL)
     thawslide.ok("run", folder / "slide", "--output", folder / "run", *words)
     return folder

@@ -12,30 +12,19 @@ FAULTS = ROOT.parent / "shared" / "data" / "faults"
 
 NONE, NOTED, REFUSED = "none", "noted", "refused"
 
-# Projection, longitude and latitude of the DEM, and what becomes of it.
-PROJECTIONS = [
-    ("EPSG:32633", 15.0, 47.0, NONE),
-    ("EPSG:32633", 19.0, 47.0, NONE),  # a neighbouring zone
-    ("EPSG:32633", 25.0, 10.0, NOTED),
-    ("EPSG:32633", 45.0, 47.0, REFUSED),
-    ("EPSG:3395", 15.0, 3.0, NONE),  # World Mercator
-    ("EPSG:3395", 15.0, 12.0, NOTED),
-    ("EPSG:3395", 15.0, 47.0, REFUSED),
-    ("EPSG:3857", 15.0, 47.0, REFUSED),  # Web Mercator
-    ("EPSG:3035", 10.0, 47.0, NONE),  # Lambert equal area of Europe
-    ("EPSG:3035", 27.0, 64.0, NOTED),
-    ("EPSG:3413", -45.0, 69.0, NONE),  # polar stereographic
-    ("EPSG:3413", -45.0, 61.0, NOTED),
-    ("EPSG:3413", -45.0, 50.0, REFUSED),
-    ("EPSG:27572", 6.0, 46.0, NONE),  # Lambert of France, in grads from Paris
-    ("EPSG:6933", 15.0, 30.0, NONE),  # equal-area cylinder, with a standard parallel at 30 degrees
-    ("EPSG:6933", 15.0, 47.0, REFUSED),
-    ("ESRI:54009", 15.0, 47.0, REFUSED),  # Mollweide
-    ("EPSG:4087", 15.0, 47.0, REFUSED),  # plate carree
-    ("EPSG:5070", -105.0, 45.5, NONE),  # Albers of the United States
-    ("EPSG:5070", -105.0, 40.0, NOTED),
-    ("EPSG:5070", -105.0, 60.0, REFUSED),
-]
+# Longitude and latitude of the DEM in each projection, and what becomes of it.
+PROJECTIONS = {
+    "EPSG:32633": [(15.0, 47.0, NONE), (19.0, 47.0, NONE), (25.0, 10.0, NOTED), (45.0, 47.0, REFUSED)],  # UTM
+    "EPSG:3395": [(15.0, 3.0, NONE), (15.0, 12.0, NOTED), (15.0, 47.0, REFUSED)],  # World Mercator
+    "EPSG:3857": [(15.0, 47.0, REFUSED)],  # Web Mercator
+    "EPSG:3035": [(10.0, 47.0, NONE), (27.0, 64.0, NOTED)],  # Lambert equal area of Europe
+    "EPSG:3413": [(-45.0, 69.0, NONE), (-45.0, 61.0, NOTED), (-45.0, 50.0, REFUSED)],  # polar stereographic
+    "EPSG:27572": [(6.0, 46.0, NONE)],  # Lambert of France, in grads from Paris
+    "EPSG:6933": [(15.0, 30.0, NONE), (15.0, 47.0, REFUSED)],  # equal-area cylinder, with a standard parallel at 30
+    "ESRI:54009": [(15.0, 47.0, REFUSED)],  # Mollweide
+    "EPSG:4087": [(15.0, 47.0, REFUSED)],  # plate carree
+    "EPSG:5070": [(-105.0, 45.5, NONE), (-105.0, 40.0, NOTED), (-105.0, 60.0, REFUSED)],  # Albers of the United States
+}
 
 
 def placed(file: Path, crs: str, longitude: float, latitude: float) -> Path:
@@ -45,11 +34,11 @@ def placed(file: Path, crs: str, longitude: float, latitude: float) -> Path:
     return odd.raster(file, odd.heights(), crs=crs, place=corner)
 
 
-@pytest.mark.parametrize(("crs", "longitude", "latitude", "expected"), PROJECTIONS)
-def test_projection(
-    thawslide: Program, tmp_path: Path, crs: str, longitude: float, latitude: float, expected: str
-) -> None:
-    dem = placed(tmp_path / "dem.tif", crs, longitude, latitude)
+@pytest.mark.parametrize(
+    ("crs", "east", "north", "expected"), [(crs, *each) for crs, places in PROJECTIONS.items() for each in places]
+)
+def test_projection(thawslide: Program, tmp_path: Path, crs: str, east: float, north: float, expected: str) -> None:
+    dem = placed(tmp_path / "dem.tif", crs, east, north)
     with rasterio.open(dem) as file:
         x, y = file.transform.c + 105.0, file.transform.f - 305.0
     line = odd.geojson(tmp_path / "line.geojson", "LineString", [(x, y), (x + 400.0, y)], crs)

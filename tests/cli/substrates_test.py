@@ -96,9 +96,7 @@ def distance_beyond(
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0])
 @pytest.mark.parametrize("border", [65.01, 67.5, 69.99])
-def test_a_substrate_of_a_section_acts_where_it_begins(
-    thawslide: Program, tmp_path: Path, degrees: float, border: float
-) -> None:
+def test_a_substrate_of_a_section_acts_in_it(thawslide: Program, tmp_path: Path, degrees: float, border: float) -> None:
     slope = np.radians(degrees)
     down, up = np.array([np.cos(slope), -np.sin(slope)]), np.array([np.sin(slope), np.cos(slope)])
     foot = np.array([30.0, -30.0 * np.tan(slope)])

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import Capture
 
 import thawslide
 from thawslide.errors import ReportError
@@ -16,7 +17,7 @@ from thawslide.sweeps.variables import levels, parse_levels, toml_value
     "address", ["tcp://127.0.0.1:9", "127.0.0.1:9", "nonsense://node:1", "tcp://127.0.0.1:x", "tls://127.0.0.1:9"]
 )
 def test_a_scheduler_without_an_answer_is_an_error(
-    slope: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], address: str
+    slope: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture, address: str
 ) -> None:
     monkeypatch.setattr("thawslide.sweeps.engine._CONNECT_TIMEOUT", 0.5)
     command = [str(slope), "--block", "--vary", "basal.friction_angle=10,12", "--output", str(tmp_path / "sweep")]
@@ -48,9 +49,7 @@ def test_dates_are_titles_of_members(slope: Path, tmp_path: Path) -> None:
         ('[sweep.set]\n"case.title" = 2025-05-28', "case.title: a case has no value of type date"),
     ],
 )
-def test_values_in_a_file_are_checked(
-    slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str], content: str, message: str
-) -> None:
+def test_values_in_a_file_are_checked(slope: Path, tmp_path: Path, capfd: Capture, content: str, message: str) -> None:
     file = tmp_path / "sweep.toml"
     sample = 'sample = "lhs:4"\n' if "range" in content else ""
     file.write_text(f'[sweep]\nblock = true\ncases = ["slope"]\n{sample}{content}\n')

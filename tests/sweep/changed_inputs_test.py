@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from conftest import Capture
 
 from thawslide import _core
 from thawslide.sweeps.command import main
@@ -47,9 +48,7 @@ def speeds(tmp_path: Path) -> list[float]:
     return list(pd.read_parquet(tmp_path / "sweep" / "members.parquet")["peak_speed_m_s"])
 
 
-def test_members_of_a_changed_file_run_again(
-    sweep: Sweep, slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_members_of_a_changed_file_run_again(sweep: Sweep, slope: Path, tmp_path: Path, capfd: Capture) -> None:
     before = speeds(tmp_path)
     assert sweep() == []
     (slope.parent / "b.csv").write_text(STEEP)
@@ -95,7 +94,7 @@ def test_an_unfinished_member_of_a_changed_file_starts_again(sweep: Sweep, slope
 
 
 def test_another_build_of_the_program_is_refused(
-    sweep: Sweep, command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    sweep: Sweep, command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
 ) -> None:
     other = tmp_path / "core.so"
     other.write_bytes(Path(_core.__file__).read_bytes() + b"other build")

@@ -1,4 +1,4 @@
-"""Sweeps on a Dask cluster of separate processes: the same table, members whose workers die, and the job for Slurm.
+"""Sweeps on a Dask cluster of separate processes: the same table, members whose workers die, memory, and Slurm.
 
 The Slurm job script is generated and parsed here; no test submits it to Slurm.
 """
@@ -7,14 +7,20 @@ import subprocess
 from pathlib import Path
 
 import pandas as pd
+import pytest
 from cluster import ALLOWED_FAILURES, cluster
 
 import thawslide
 from thawslide import Case
+from thawslide.program import find_program
+from thawslide.sweeps import resources
+from thawslide.sweeps.design import Design
 from thawslide.sweeps.engine import MOST_DEATHS
 from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.member import Task, perform
+from thawslide.sweeps.resources import bytes_of_worker, workers_that_fit
 from thawslide.sweeps.slurm import slurm_cluster
+from thawslide.sweeps.variables import Uniform
 
 VARY = {"basal.friction_angle": [20.0, 25.0, 30.0]}
 MANY = {"basal.friction_angle": [20.0 + angle for angle in range(12)]}  # members wait on a worker that dies
@@ -70,3 +76,28 @@ def test_a_job_has_one_single_threaded_worker_for_each_core() -> None:
     assert "module load gcc" in script
     assert "--nthreads 1 " in script and "--nworkers 8 " in script and "tcp://" in script
     assert subprocess.run(["bash", "-n"], input=script, text=True, check=False).returncode == 0
+
+
+def test_the_estimate_combines_the_extremes_of_all_keys(slope: Path, with_program: None) -> None:
+    sizes = (Uniform("grid.cell", 1.0, 4.0), Uniform("body.block.particles_per_axis", 1.0, 4.0))
+
+    def need(cell: float, particles: float) -> float:
+        program = find_program()
+        assert program
+        changes = {"grid.cell": cell, "body.block.particles_per_axis": round(particles)}
+        found = resources._need(program, str(slope), changes)
+        assert found
+        return found
+
+    members = Design((str(slope),), sizes, "lhs", 4, 1).members()
+    for member in members:
+        member.changes["body.block.particles_per_axis"] = round(member.changes["body.block.particles_per_axis"])
+    cells, particles = ([member.changes[key] for member in members] for key in members[0].changes)
+    found = bytes_of_worker(members)
+    assert found == pytest.approx(0.4e9 + 1.2 * need(min(cells), max(particles)))
+    assert found >= max(0.4e9 + 1.2 * need(*member.changes.values()) for member in members)
+
+
+def test_at_least_one_worker_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(resources, "available_bytes", lambda: 10e9)
+    assert [workers_that_fit(8, need) for need in (None, 1e9, 4e9, 20e9)] == [8, 8, 2, 1]

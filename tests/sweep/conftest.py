@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+Capture = pytest.CaptureFixture[str]
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "api"))
 

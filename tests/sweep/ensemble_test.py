@@ -50,9 +50,7 @@ def test_the_order_of_members_and_the_unit_of_weights_do_not_matter() -> None:
     for seed in range(5):
         order = np.random.default_rng(seed).permutation(40)
         again = compare(members[order], 7.0 * weights[order], 0.3, 0.2)
-        assert [getattr(again, name) for name in vars(again)] == pytest.approx(
-            [getattr(first, name) for name in vars(first)]
-        )
+        assert [*vars(again).values()] == pytest.approx([*vars(first).values()])
 
 
 def test_percentiles_are_within_0_and_100_and_uncertainty_widens_them() -> None:

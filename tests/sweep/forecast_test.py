@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import ROOT
+from conftest import ROOT, Capture
 from probability_test import read, write
 from slope_case import write_slope_case
 
@@ -61,9 +61,8 @@ def slope(tmp_path: Path, with_program: None) -> Path:
     """Return the folder of a 3D case: 1.1 million m3 on a slope of 30 degrees above level ground."""
     folder = tmp_path / "slope"
     x = (np.arange(COLUMNS) + 0.5) * CELL
-    write(
-        folder / "dem.tif", np.tile(np.maximum(1100.0 - 0.58 * x, 100.0 - 0.02 * x), (ROWS, 1)), 400_000.0, NORTH, CELL
-    )
+    heights = np.tile(np.maximum(1100.0 - 0.58 * x, 100.0 - 0.02 * x), (ROWS, 1))
+    write(folder / "dem.tif", heights, 400_000.0, NORTH, CELL)
     thickness = np.zeros((ROWS, COLUMNS))
     thickness[4:8, 9:15] = 28.0
     write(folder / "thickness.tif", thickness, 400_000.0, NORTH, CELL)
@@ -72,16 +71,13 @@ def slope(tmp_path: Path, with_program: None) -> Path:
     return folder
 
 
-def test_a_forecast_is_weighted_throughout_and_continues(
-    slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_forecast_is_weighted_throughout_and_continues(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     output = tmp_path / "forecast"
     command = [str(slope), "--prior", "events", "--output", str(output), "--workers", "1"]
     assert main(command) == 0
     printed = capfd.readouterr()
-    assert (
-        "release of 1.08 million m³" in printed.out and "published events of 0.4 to 2.5 times the volume" in printed.out
-    )
+    assert "release of 1.08 million m³" in printed.out
+    assert "published events of 0.4 to 2.5 times the volume" in printed.out
     assert "12 members done, 0 failed" in printed.err
     table = pd.read_parquet(output / "members.parquet")
     weights = table["weight"].to_numpy()
@@ -122,13 +118,13 @@ def test_a_forecast_is_weighted_throughout_and_continues(
     assert after == pytest.approx(crps(table["travel_distance_m"].to_numpy(), np.ones(12), 2000.0) / 1e3) != first
 
 
-def error(capfd: pytest.CaptureFixture[str], *words: object) -> str:
+def error(capfd: Capture, *words: object) -> str:
     capfd.readouterr()
     assert main([str(word) for word in words]) == 2
     return capfd.readouterr().err.splitlines()[-1]
 
 
-def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     file, output = slope / "sweep.toml", ("--output", tmp_path / "forecast")
     for text, words in (
         (SWEEP.replace("lhs:12", "lhs:6"), "too few members with H/L of a rigid block (found 6 of 6; needed 10)"),
@@ -153,7 +149,7 @@ def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: pytest.Capt
     assert words in error(capfd, slope, *output)
 
 
-def test_a_kind_with_few_events_names_the_reason(slope: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_kind_with_few_events_names_the_reason(slope: Path, capfd: Capture) -> None:
     for kind, words in (
         ("rock and ice", '"rock and ice": fewer than 5 published events of a similar volume; allowed: rock'),
         ("snow", '"snow"; allowed: rock'),
@@ -163,9 +159,7 @@ def test_a_kind_with_few_events_names_the_reason(slope: Path, capfd: pytest.Capt
         assert f"argument --kind: {words}" in capfd.readouterr().err
 
 
-def test_blocks_that_cannot_be_computed_are_reported(
-    slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_blocks_that_cannot_be_computed_are_reported(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     (slope / "case.toml").write_text(CASE.replace("thickness.tif", "empty.tif"))
     write(slope / "empty.tif", np.zeros((ROWS, COLUMNS)), 400_000.0, NORTH, CELL)
     found = error(capfd, slope, "--output", tmp_path / "forecast")
@@ -179,7 +173,7 @@ def test_blocks_that_cannot_be_computed_are_reported(
     assert "no rigid block of the 12 members can be computed (first error:" in found and "or use --prior none." in found
 
 
-def test_folders_of_others_are_left_alone(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_folders_of_others_are_left_alone(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     for kept in (tmp_path / "work" / "prior" / "notes.txt", tmp_path / "other" / "notes.txt"):
         kept.parent.mkdir(parents=True)
         kept.write_text("mine")
@@ -219,7 +213,7 @@ def test_members_of_fine_cases_have_their_ground(tmp_path: Path, with_program: N
     assert done.returncode == 0, done.stderr
 
 
-def test_a_design_of_a_2d_case_is_for_sweep(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_design_of_a_2d_case_is_for_sweep(tmp_path: Path, capfd: Capture) -> None:
     file = write_slope_case(tmp_path / "slope", end=0.5, cell=10.0).with_name("sweep.toml")
     file.write_text(SWEEP)
     assert f"not a 3D case. For other cases, use: thawslide sweep {file}" in error(capfd, file.parent)

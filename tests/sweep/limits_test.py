@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from conftest import Capture
 from scipy.stats import spearmanr
 
 import thawslide
@@ -58,7 +59,7 @@ def test_a_distribution_inside_its_limits_does_not_change() -> None:
 
 @pytest.mark.parametrize("sample", ["lhs:20", "sobol:16", "saltelli:4", "morris:4"])
 def test_a_sweep_beyond_the_limits_of_a_key_runs_with_a_note(
-    slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str], sample: str
+    slope: Path, tmp_path: Path, capfd: Capture, sample: str
 ) -> None:
     command = [str(slope), "--block", "--set", "time.end=0.02", "--sample", sample, "--output", str(tmp_path / "sweep")]
     command += ["--normal", f"{ANGLE}=5:4", "--range", "band.thickness=0:1"]
@@ -100,7 +101,7 @@ def test_invalid_ties_are_refused(ties: list[str], words: str) -> None:
         ).members()  # fmt: skip
 
 
-def test_a_tie_makes_a_design_possible(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_tie_makes_a_design_possible(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     residual = "material.rock.residual_cohesion"
     command = [str(slope), "--block", "--sample", "lhs:8", "--range", "material.rock.cohesion=1e4:2e5"]
     command += ["--set", "material.rock.softening_slip=0.5"]
@@ -119,9 +120,7 @@ def ranks_of(design: Design) -> Numbers:
 
 @pytest.mark.parametrize(("method", "count"), [("lhs", 400), ("sobol", 512)])
 @pytest.mark.parametrize("value", [-0.9, 0.3, 0.8])
-def test_correlated_keys_have_the_rank_correlation_and_their_distributions(
-    method: str, count: int, value: float
-) -> None:
+def test_correlated_keys_have_the_rank_correlation_and_distributions(method: str, count: int, value: float) -> None:
     variables = (Uniform("a", 0.0, 1.0), Normal("b", 5.0, 1.0), Normal("c", 1.0, 0.5, True))
     free = Design(("case",), variables, method, count, 3)
     design = Design(("case",), variables, method, count, 3, correlations=(("c", "a", value),))

@@ -1,12 +1,12 @@
 """Sweeps of a 3D case: probability maps equal those of the members' maps, and maps that are not kept are removed."""
 
-import json
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from probability_test import CELL, read, write
+from conftest import Capture
+from probability_test import CELL, read, write, write_box
 
 from thawslide.sweeps.command import main
 from thawslide.sweeps.folder import SweepFolder
@@ -47,7 +47,7 @@ porosity = 0.3
     return folder
 
 
-def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capfd: Capture) -> None:
     sweep = tmp_path / "sweep"
     command = [str(plane), "--vary", "basal.friction_angle=5:35:10", "--output", str(sweep), "--thickness", "2,10"]
     assert main([*command, "--speed", "5"]) == 0
@@ -75,7 +75,7 @@ def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capf
     assert capfd.readouterr().err.endswith(words)
 
 
-def test_maps_that_are_not_kept_are_removed(plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_maps_that_are_not_kept_are_removed(plane: Path, tmp_path: Path, capfd: Capture) -> None:
     sweep = tmp_path / "sweep"
     command = [str(plane), "--vary", "basal.friction_angle=5,25", "--output", str(sweep), "--keep", "none"]
     assert main(command) == 0
@@ -90,17 +90,6 @@ def test_maps_that_are_not_kept_are_removed(plane: Path, tmp_path: Path, capfd: 
 
 
 def test_depths_of_a_bed_vary_and_changed_polygons_run_again(plane: Path, tmp_path: Path) -> None:
-    def write_bed(east: float) -> float:
-        """Write the polygon of the bed and return its area [m2]."""
-        west, south, north = 400_080.0, 6_500_045.0, 6_500_112.0
-        ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
-        geometry = {"type": "Polygon", "coordinates": [ring]}
-        system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32608"}}
-        features = [{"type": "Feature", "properties": {}, "geometry": geometry}]
-        text = json.dumps({"type": "FeatureCollection", "crs": system, "features": features})
-        (plane / "bed.geojson").write_text(text)
-        return (east - west) * (north - south)
-
     with (plane / "case.toml").open("a") as case:
         case.write(
             '[bed]\nlaw = "strength"\noutline = "bed.geojson"\ndepth = 1.0\nstrength = 0.0\ndepth_per_slip = 0.1\n'
@@ -108,9 +97,10 @@ def test_depths_of_a_bed_vary_and_changed_polygons_run_again(plane: Path, tmp_pa
         )
     sweep = SweepFolder(tmp_path / "sweep")
     for east in (400_150.0, 400_163.0):
-        area = write_bed(east)
+        west, south, height = 400_080.0, 6_500_045.0, 67.0
+        write_box(plane / "bed.geojson", west, east, south, south + height)
         assert main([str(plane), "--vary", "bed.depth=0.5,2.0", "--output", str(tmp_path / "sweep")]) == 0
         histories = [pd.read_csv(sweep.run_folder(number) / "history.csv") for number in sweep.done_members()]
         for depth, rows in zip((0.5, 2.0), histories, strict=True):
             density = rows["entrained_mass_kg"].iloc[-1] / rows["entrained_volume_m3"].iloc[-1]
-            assert rows["bed_mass_kg"].iloc[0] == pytest.approx(density * depth * area, rel=1e-11)
+            assert rows["bed_mass_kg"].iloc[0] == pytest.approx(density * depth * (east - west) * height, rel=1e-11)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import Capture
 
 from thawslide.maps import Grid, Map
 from thawslide.pairs.command import main
@@ -38,7 +39,7 @@ def test_power_law_is_extrapolated_to_its_limit(order: float) -> None:
         ((1.0, 2.0, 2.0), "the results on 2h and h are equal", 1.0),
     ],
 )
-def test_without_an_order_nothing_is_extrapolated(
+def test_without_an_order_no_value_is_extrapolated(
     values: tuple[float, float, float], reason: str, spread: float
 ) -> None:
     found = error_of(*values)
@@ -78,45 +79,31 @@ def test_without_an_outline_there_is_no_distance() -> None:
     assert outline_distance(cone(150.0), cone(-200.0), 1.0) is None
 
 
-CASE = """
-[case]
-title = "column of 20 m"
-dimension = 2
-[time]
-end = 2.0
-stepping = "adaptive"
-output_interval = 2.0
-history_interval = 0.5
-[grid]
-min = [0.0, 0.0]
-max = [97.5, 27.5]
-cell = 2.5
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.column]
-material = "grains"
-shape = "box"
-min = [30.0, 0.0]
-max = [50.0, 20.0]
-[material.grains]
-law = "mohr_coulomb"
-youngs_modulus = 1.0e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-[basal]
-friction = "constant"
-friction_angle = 20.0
+GRAINS = """
+terrain = { type = "flat", elevation = 0.0 }
+basal = { friction = "constant", friction_angle = 20.0 }
+heat = { enabled = false }
+pressure = { enabled = false }
+material.grains = { law = "mohr_coulomb", youngs_modulus = 1.0e7, poisson_ratio = 0.3, friction_angle = 30.0, \
+cohesion = 0.0 }
+"""
+CASE = f"""{GRAINS}
+case = {{ title = "column of 20 m", dimension = 2 }}
+time = {{ end = 2.0, stepping = "adaptive", output_interval = 2.0, history_interval = 0.5 }}
+grid = {{ cell = 2.5, min = [0.0, 0.0], max = [97.5, 27.5] }}
+body.column = {{ material = "grains", shape = "box", min = [30.0, 0.0], max = [50.0, 20.0] }}
+"""
+# A cube of 8 m that collapses, on cells of 8, 4 and 2 m.
+CASE_3D = f"""{GRAINS}
+case = {{ title = "cube of 8 m", dimension = 3 }}
+time = {{ end = 1.0, stepping = "adaptive" }}
+grid = {{ cell = 2.0, min = [0.0, 0.0, 0.0], max = [42.0, 32.0, 16.0] }}
+body.cube = {{ material = "grains", shape = "box", min = [16.0, 12.0, 0.0], max = [24.0, 20.0, 8.0] }}
 """
 
 
 @pytest.mark.usefixtures("with_program")
-def test_the_command_runs_three_cells_and_reports_errors(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_command_runs_three_cells_and_reports_errors(tmp_path: Path, capfd: Capture) -> None:
     (tmp_path / "case.toml").write_text(CASE)
     output = tmp_path / "out"
     assert main([str(tmp_path / "case.toml"), "--threads", "1", "--output", str(output)]) == 0
@@ -134,32 +121,9 @@ def test_the_command_runs_three_cells_and_reports_errors(tmp_path: Path, capfd: 
     assert (output / "pair.md").read_text().startswith("# Errors of column of 20 m")
 
 
-# A cube of 8 m that collapses, on cells of 8, 4 and 2 m.
-CASE_3D = """
-[case]
-title = "cube of 8 m"
-dimension = 3
-[time]
-end = 1.0
-stepping = "adaptive"
-[grid]
-cell = 2.0
-min = [0.0, 0.0, 0.0]
-max = [42.0, 32.0, 16.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.cube]
-material = "grains"
-shape = "box"
-min = [16.0, 12.0, 0.0]
-max = [24.0, 20.0, 8.0]
-"""
-
-
 @pytest.mark.usefixtures("with_program")
-def test_in_3d_all_runs_have_one_map_cell(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "case.toml").write_text(CASE_3D + CASE[CASE.index("[material.grains]") :])
+def test_in_3d_all_runs_have_one_map_cell(tmp_path: Path, capfd: Capture) -> None:
+    (tmp_path / "case.toml").write_text(CASE_3D)
     output = tmp_path / "out"
     command = [str(tmp_path / "case.toml"), "--threads", "1", "--output", str(output)]
     assert main(command) == 0, capfd.readouterr().err
@@ -174,7 +138,7 @@ def test_in_3d_all_runs_have_one_map_cell(tmp_path: Path, capfd: pytest.CaptureF
 
 
 @pytest.mark.usefixtures("with_program")
-def test_a_mistake_is_reported_before_any_run(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_mistake_is_reported_before_any_run(tmp_path: Path, capfd: Capture) -> None:
     (tmp_path / "case.toml").write_text(CASE.replace("friction_angle = 30.0", "friction_angle = 95.0"))
     assert main([str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")]) == 2
     assert "friction_angle" in capfd.readouterr().err

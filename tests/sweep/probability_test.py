@@ -1,11 +1,13 @@
 """Probability and quantile maps against NumPy, extents, and refused rasters."""
 
+import json
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
+from conftest import Capture
 
 from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
@@ -25,6 +27,15 @@ def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0,
         transform=rasterio.Affine(cell, 0.0, west, 0.0, -cell, north), crs="EPSG:32608",
     ) as file:  # fmt: skip
         file.write(np.where(np.isnan(values), NO_DATA, values), 1)
+    return path
+
+
+def write_box(path: Path, west: float, east: float, south: float, north: float) -> Path:
+    """Write a rectangle as GeoJSON."""
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
+    feature = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32608"}}
+    path.write_text(json.dumps({"type": "FeatureCollection", "crs": crs, "features": [feature]}))
     return path
 
 
@@ -72,9 +83,8 @@ def test_weighted_maps_match_numpy(ensemble: tuple[list[Path], dict[str, Numbers
     write_probability_maps(rasters_in(folders), output, memory=1.0, weights=weights)
     thickness = np.nan_to_num(stacks["max_thickness"])
     repeated = np.repeat(thickness, weights, axis=0)
-    assert read(output / "reached.tif") == pytest.approx(
-        np.average(np.isfinite(stacks["arrival_time"]), axis=0, weights=weights)
-    )
+    expected = np.average(np.isfinite(stacks["arrival_time"]), axis=0, weights=weights)
+    assert read(output / "reached.tif") == pytest.approx(expected)
     assert read(output / "thickness_above_0.5.tif") == pytest.approx((repeated > 0.5).mean(axis=0))
     for percent in (10, 50, 90):
         expected = np.quantile(repeated, percent / 100.0, axis=0, method="inverted_cdf")
@@ -123,7 +133,7 @@ def test_extents_can_differ_by_whole_cells_only(tmp_path: Path) -> None:
             write_probability_maps({"thickness": [first, other]}, tmp_path / "out")
 
 
-def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_folders_without_maps_are_refused(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "empty").mkdir()
     assert main([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
     assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
@@ -143,7 +153,7 @@ def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.Capture
     ],
 )  # fmt: skip
 def test_another_raster_than_a_map_is_named(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], values: Numbers, quantity: str, is_noted: bool
+    tmp_path: Path, capsys: Capture, values: Numbers, quantity: str, is_noted: bool
 ) -> None:
     plain = write(tmp_path / "plain.tif", np.where(np.arange(12) > 5, np.nan, 3.0).reshape(3, 4))
     odd = write(tmp_path / "odd.tif", values.reshape(3, 4))
@@ -163,15 +173,8 @@ def test_figure_has_probabilities_in_classes_and_one_bar_for_each_quantity(tmp_p
     maps = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
     bars = [axes for axes in figure.axes if axes not in maps]
     assert [axes.get_ylabel() for axes in bars] == ["probability", "thickness (m)"]
-    assert [label.get_text() for label in bars[0].get_yticklabels()] == [
-        "0",
-        "0.05",
-        "0.25",
-        "0.5",
-        "0.75",
-        "0.95",
-        "1",
-    ]
+    labels = [label.get_text() for label in bars[0].get_yticklabels()]
+    assert labels == ["0", "0.05", "0.25", "0.5", "0.75", "0.95", "1"]
     norms = [axes.images[-1].norm for axes in maps]
     for norm in norms[:2]:
         shades = [float(norm(0.5 * (low + high))) for low, high in pairwise(PROBABILITY_LIMITS)]

@@ -7,8 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import scoringrules
+from conftest import Capture
 from maps_test import plane  # noqa: F401
-from probability_test import CELL, write
+from probability_test import CELL, write, write_box
 
 from thawslide.figures.force_record import Comparison, Curves
 from thawslide.force_record import extreme_times
@@ -68,7 +69,7 @@ def scored(forecast: Path, text: str, *words: str) -> pd.DataFrame:
     return pd.read_csv(forecast / "score.csv").set_index("quantity")
 
 
-def failure(forecast: Path, text: str, capfd: pytest.CaptureFixture[str]) -> str:
+def failure(forecast: Path, text: str, capfd: Capture) -> str:
     file = forecast.parent / "observed.toml"
     file.write_text(text)
     capfd.readouterr()
@@ -76,9 +77,7 @@ def failure(forecast: Path, text: str, capfd: pytest.CaptureFixture[str]) -> str
     return capfd.readouterr().err.strip()
 
 
-def test_scores_are_those_of_the_members_and_of_similar_events(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_scores_are_those_of_the_members_and_of_similar_events(tmp_path: Path, capfd: Capture) -> None:
     done = synthetic_sweep(tmp_path / "sweep")
     found = scored(tmp_path / "sweep", JOFFRE)
     events = [each for each in published_events() if 1e6 <= each.volume <= 6.25e6 and each.kind == "rock"]
@@ -108,7 +107,7 @@ def test_scores_are_those_of_the_members_and_of_similar_events(
     assert "| travel distance L | 4 ± 0.4 km" in page and "Gneiting and Raftery 2007, Eq. 21" in page
 
 
-def test_a_column_weight_weighs_the_members(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_column_weight_weighs_the_members(tmp_path: Path, capfd: Capture) -> None:
     weights = [*np.linspace(0.0, 2.0, 23), 9.0]
     done = synthetic_sweep(tmp_path / "sweep", weights)
     row = scored(tmp_path / "sweep", JOFFRE).loc["travel_distance"]
@@ -141,14 +140,6 @@ def test_each_offered_kind_has_a_volume_with_enough_events() -> None:
     assert TABLES["event"]["kind"] == comparable_kinds()
 
 
-def outline_of(folder: Path, west: float, east: float, south: float, north: float) -> None:
-    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
-    feature = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
-    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32608"}}
-    text = json.dumps({"type": "FeatureCollection", "crs": crs, "features": [feature]})
-    (folder / "outline.geojson").write_text(text)
-
-
 def sweep_with_maps(folder: Path) -> np.ndarray:
     """Write a sweep of three members on 10 x 20 cells; return the maximum thickness of each."""
     random = np.random.default_rng(8)
@@ -167,7 +158,7 @@ def sweep_with_maps(folder: Path) -> np.ndarray:
 
 def test_overlap_counts_cells_of_members_and_of_the_weighted_probability(tmp_path: Path) -> None:
     thickness = sweep_with_maps(tmp_path / "sweep")
-    outline_of(tmp_path, 30.0, 300.0, 920.0, 980.0)  # beyond the maps, which end at x = 200
+    write_box(tmp_path / "outline.geojson", 30.0, 300.0, 920.0, 980.0)  # beyond the maps, which end at x = 200
     text = '[outline]\nfile = "outline.geojson"\nthreshold = 1.0\n'
     file = tmp_path / "observed.toml"
     file.write_text(text)
@@ -190,7 +181,7 @@ def test_overlap_counts_cells_of_members_and_of_the_weighted_probability(tmp_pat
     assert tables[0][1][0][:3] == first
 
 
-def test_thickness_is_that_of_the_cell_around_the_point(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_thickness_is_that_of_the_cell_around_the_point(tmp_path: Path, capfd: Capture) -> None:
     thickness = sweep_with_maps(tmp_path / "sweep")
     point = '[[thickness]]\nname = "{}"\nx = {}\ny = {}\nvalue = 0\nunit = "cm"\nof = "{}"\n'
     text = point.format("A", 49.0, 961.0, "maximum") + point.format("B", 49.0, 961.0, "deposit")
@@ -203,43 +194,38 @@ def test_thickness_is_that_of_the_cell_around_the_point(tmp_path: Path, capfd: p
     assert "thickness at D: outside the maps (found x = 201, y = 950; allowed 0 to 200, 900 to 1000). Corr" in error
 
 
-def test_a_forecast_without_the_observed_quantities_is_an_error(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_forecast_without_the_observed_quantities_is_an_error(tmp_path: Path, capfd: Capture) -> None:
     synthetic_sweep(tmp_path / "sweep")
-    outline_of(tmp_path, 30.0, 300.0, 920.0, 980.0)
+    write_box(tmp_path / "outline.geojson", 30.0, 300.0, 920.0, 980.0)
     text = '[peak_speed]\nvalue = 50\nunit = "m/s"\n[outline]\nfile = "outline.geojson"\n'
     error = failure(tmp_path / "sweep", text, capfd)
-    assert (
-        "nothing to compare with" in error
-        and "peak speed: no value in the column peak_speed_m_s; outline: no map" in error
-    )
+    assert "nothing to compare with" in error
+    assert "peak speed: no value in the column peak_speed_m_s; outline: no map" in error
     (tmp_path / "empty").mkdir()
     assert "neither a sweep nor a run (no sweep.json, no run.json)" in failure(tmp_path / "empty", JOFFRE, capfd)
     (tmp_path / "sweep" / "members.parquet").write_bytes(b"no table")
     assert "members.parquet: cannot be read (" in failure(tmp_path / "sweep", JOFFRE, capfd)
 
 
-def test_a_far_outline_is_an_error(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_far_outline_is_an_error(tmp_path: Path, capfd: Capture) -> None:
     sweep_with_maps(tmp_path / "sweep")
-    outline_of(tmp_path, 4e6, 5e6, 920.0, 980e3)
-    assert "or far from the maps (found corners from" in failure(
-        tmp_path / "sweep", '[outline]\nfile = "outline.geojson"\n', capfd
-    )
+    write_box(tmp_path / "outline.geojson", 4e6, 5e6, 920.0, 980e3)
+    error = failure(tmp_path / "sweep", '[outline]\nfile = "outline.geojson"\n', capfd)
+    assert "or far from the maps (found corners from" in error
 
 
 @pytest.mark.parametrize("keep", ["maps", "none"])
 def test_the_page_of_a_sweep_has_its_score_before_the_maps(
     plane: Path,  # noqa: F811
     tmp_path: Path,
-    capfd: pytest.CaptureFixture[str],
+    capfd: Capture,
     keep: str,
 ) -> None:
     command = [str(plane), "--vary", "basal.friction_angle=5,25", "--output", str(tmp_path / "sweep"), "--keep", keep]
     assert sweep(command) == 0
     page = tmp_path / "sweep" / "sweep.html"
     assert f"{BEGIN}\n\n{END}" in page.read_text()
-    outline_of(tmp_path, 400_040.0, 400_100.0, 6_500_050.0, 6_500_110.0)
+    write_box(tmp_path / "outline.geojson", 400_040.0, 400_100.0, 6_500_050.0, 6_500_110.0)
     (tmp_path / "force.csv").write_text(
         "time_s,up_N,north_N,east_N\n"
         + "".join(f"{t},{2e6 * np.sin(6.0 * t)},0,{-1e6 * t}\n" for t in np.arange(0, 1, 0.05))
@@ -252,9 +238,8 @@ def test_the_page_of_a_sweep_has_its_score_before_the_maps(
     found = scored(tmp_path / "sweep", text)
     table = pd.read_parquet(tmp_path / "sweep" / "members.parquet")
     area = table["affected_area_m2"].to_numpy() / 1e4
-    assert found.loc["affected_area", "members_crps"] == pytest.approx(
-        scoringrules.crps_ensemble(0.4, area, estimator="nrg")
-    )
+    crps = scoringrules.crps_ensemble(0.4, area, estimator="nrg")
+    assert found.loc["affected_area", "members_crps"] == pytest.approx(crps)
     correlation = pd.read_csv(tmp_path / "sweep" / "score-members.csv")["force_correlation"]
     assert correlation.abs().max() <= 1.0 and len(correlation.unique()) == 2
     out = capfd.readouterr().out
@@ -266,7 +251,7 @@ def test_the_page_of_a_sweep_has_its_score_before_the_maps(
     assert stored_section(page.parent) in page.read_text() and stored_section(page.parent) in first
 
 
-def test_a_single_run_has_differences(plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:  # noqa: F811
+def test_a_single_run_has_differences(plane: Path, tmp_path: Path, capfd: Capture) -> None:  # noqa: F811
     from thawslide import run
 
     found = run(plane, tmp_path / "run")

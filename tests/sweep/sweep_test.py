@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from conftest import Capture
 
 import thawslide
 from thawslide import Case, Run, UserError
@@ -41,7 +42,7 @@ def test_a_sweep_returns_the_numbers_of_separate_runs(slope: Path, tmp_path: Pat
     assert sorted(path.name for path in folder.iterdir()) == ["case.toml", "history.csv", "run.json"]
 
 
-def test_finished_members_are_not_repeated(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_finished_members_are_not_repeated(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     command = [str(slope), "--vary", "basal.friction_angle=20:30:5", "--output", str(tmp_path / "sweep")]
     command += ["--keep", "all"]
     assert main(command) == 0
@@ -121,7 +122,7 @@ def parent_of(process: int) -> int:
     return int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
 
 
-def test_a_failed_member_is_reported(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_failed_member_is_reported(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     command = [str(slope), "--vary", "body.block.velocity=[0.0, 0.0],[0.0, 300.0]", "--output", str(tmp_path / "sweep")]
     assert main(command) == 3
     table = pd.read_parquet(tmp_path / "sweep" / "members.parquet")
