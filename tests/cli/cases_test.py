@@ -36,14 +36,13 @@ USER_DATA = {
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.parent.name}/{case.stem}")
-def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> None:
+def test_case_runs_shortened(thawslide: Program, run: Path, case: Path) -> None:
     user_data = keys_of_user_data(case)
     thawslide.ok("check", case, *options(user_data))
     tables = tomllib.loads(Case(case, user_data).to_toml())
     is_adaptive = tables["time"]["stepping"] == "adaptive"
     end = STEPS * (ADAPTIVE_STEP if is_adaptive else tables["time"]["step"])
     later = {f"body.{name}.release_time": 0.5 * end for name, body in tables["body"].items() if body["release_time"]}
-    run = tmp_path / "run"
     shortened = {key: f"{time:.12g}" for key, time in ({"time.end": end} | later).items()}
     thawslide.ok("run", case, *options(user_data | shortened), "--output", run)
     assert run_facts(run)["status"] == "done"

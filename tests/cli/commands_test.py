@@ -199,8 +199,7 @@ def test_report_without_thawslide_report_names_the_remedy(lone_binary: Path, pla
     assert "put .venv/bin on PATH" in outcome.stderr
 
 
-def test_a_missing_gpu_is_reported_before_writing(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_missing_gpu_is_reported_before_writing(thawslide: Program, small_case: Path, run: Path) -> None:
     outcome = thawslide("run", small_case, "--output", run, "--device", "gpu")
     if outcome.returncode == 0:
         assert run_facts(run)["parts"][0]["device"]

@@ -176,6 +176,12 @@ def ran(thawslide: Program, finished: Path, small_case: Path, tmp_path: Path) ->
 
 
 @pytest.fixture
+def run(tmp_path: Path) -> Path:
+    """Return the path of the folder of a run, which does not exist yet."""
+    return tmp_path / "run"
+
+
+@pytest.fixture
 def done(ran: Ran) -> Path:
     return ran()
 

@@ -88,12 +88,11 @@ def case(thawslide: Program, tmp_path: Path, given: Path) -> Path:
     return tmp_path / "slide"
 
 
-def test_copies_are_complete_and_unchanged(thawslide: Program, case: Path, given: Path, tmp_path: Path) -> None:
+def test_copies_are_complete_and_unchanged(thawslide: Program, case: Path, given: Path, run: Path) -> None:
     original = contents(given.parent)
     shutil.rmtree(given.parent)
     assert volume(thawslide, case) == pytest.approx(odd.FULL, rel=1e-6)
     assert original.items() <= contents(case).items()
-    run = tmp_path / "run"
     thawslide.ok("run", case, "--output", run, *sets(time__end=0.02, grid__cell=20.0))
     shutil.rmtree(case)
     assert original.items() <= contents(run / "inputs").items()
@@ -118,9 +117,8 @@ def test_digest_of_a_sweep_depends_on_every_file(case: Path, given: Path) -> Non
         (case / name).write_bytes(content)
 
 
-def test_file_added_to_an_input_of_a_run_is_refused(thawslide: Program, tmp_path: Path) -> None:
+def test_file_added_to_an_input_of_a_run_is_refused(thawslide: Program, tmp_path: Path, run: Path) -> None:
     thawslide.ok(*odd.new_words(tmp_path, odd.shapefile(tmp_path / "release.shp", [[odd.ring(odd.SQUARE)]])))
-    run = tmp_path / "run"
     thawslide.ok("run", tmp_path / "slide", "--output", run, *sets(time__end=0.02, grid__cell=20.0))
     mark_killed(run)
     (run / "inputs" / "release.cpg").write_text("UTF-8")

@@ -13,8 +13,7 @@ SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.01)
 RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
 
 
-def test_a_run_ends_at_rest(ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_run_ends_at_rest(ran: Ran, thawslide: Program, small_case: Path, run: Path) -> None:
     printed = thawslide.ok("run", small_case, "--output", run, *RESTS)
     facts = run_facts(run)
     reported = re.fullmatch(
@@ -67,9 +66,8 @@ def test_a_run_at_rest_without_its_last_checkpoint_ends_at_the_same_rest(ran: Ra
     assert (run / "history.csv").read_bytes() == rows
 
 
-def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, run: Path) -> None:
     """With contact one cell too early, the ground rebounds the falling block with more energy than it had."""
-    run = tmp_path / "run"
     fall = sets(time__end=2, body__block__min="[10,3]", body__block__max="[14,6]", basal__distance_check="false")
     message = thawslide.error("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001), code=3)
     assert "J per m of width without a physical cause" in message
@@ -79,8 +77,7 @@ def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small
     assert len(list((run / "snapshots").iterdir())) > 1
 
 
-def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_removed_particles_are_counted(thawslide: Program, run: Path) -> None:
     words = sets(time__end=20, guards__volume='"remove"', guards__removed_mass=0.05)
     outcome = thawslide("run", LAMPLUGH, "--output", run, *SOFT, *words)
     assert outcome.returncode == 3
@@ -107,8 +104,7 @@ def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> No
     assert columns["removed_mass_kg"][-2] <= 0.05 * columns["mass_kg"][0], "the run ends at the limit"
 
 
-def test_resume_keeps_removed_particles(ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_resume_keeps_removed_particles(ran: Ran, thawslide: Program, interrupted: Interrupted, run: Path) -> None:
     guards = {"guards__volume": '"remove"', "guards__removed_mass": 1, "guards__smallest_volume": 0.5}
     words = [*SOFT, *sets(time__end=4.5, time__output_interval=0.7, **guards)]
     complete = ran(*words, case=LAMPLUGH, name="complete")

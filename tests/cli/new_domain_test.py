@@ -58,11 +58,10 @@ def cell_of(folder: Path) -> float:
 
 @pytest.mark.parametrize("resolution", ["", "quick", "standard"])
 def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, slope: Slope, resolution: str) -> None:
-    folder = tmp_path / "slide"
     words = ["--resolution", resolution] if resolution else []
     printed = slope.ok(*words)
     chosen = resolution or "quick"
-    assert cell_of(folder) == CELLS[chosen]
+    assert cell_of(slope.case) == CELLS[chosen]
     found = re.search(
         rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; [0-9a-z %.,:()]+\n"
         rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} of processor time"
@@ -71,7 +70,7 @@ def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, s
         re.MULTILINE,
     )
     assert found, printed
-    checked = thawslide.json("check", folder)
+    checked = thawslide.json("check", slope.case)
     assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
     assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
     pattern = rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION} of processor time; [0-9a-z %.,:()]+$"
@@ -95,7 +94,6 @@ COARSE = sets(grid__cell=12, time__end=8, basal__friction="constant", basal__fri
 
 
 def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    folder = tmp_path / "slide"
     release = write_rectangle(tmp_path / "wide.geojson", WEST + 150.0, SOUTH + 200.0, SIDE, SIDE)
     printed = slope.ok("--cut", release=release, thickness=THICK)
     # The cell is that for most of the volume; most of the area is below ramps.
@@ -108,12 +106,12 @@ def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: 
         "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume is preserved. "
         "Vertical\n# edges would trap the slide. At their steepest, the ramps rise 29.7 degrees against the DEM, which "
         "falls 30.0\n# degrees here.\ntaper = 70.0  # m\n"
-    ) in (folder / "case.toml").read_text()
+    ) in (slope.case / "case.toml").read_text()
     walls = sets(body__slide__taper=0)
     top = [*walls, *sets(body__slide__placement="on_top")]
     speeds = {}
     for name, words in (("ramps", []), ("walls", walls), ("top", top)):
-        thawslide.ok("run", folder, "--output", tmp_path / name, *COARSE, *words)
+        thawslide.ok("run", slope.case, "--output", tmp_path / name, *COARSE, *words)
         speeds[name] = history(tmp_path / name)["mean_velocity_m_s"][-1]
         assert release_volume(tmp_path / name) == pytest.approx(VOLUME, rel=1e-9), name
     assert speeds["ramps"] > 0.6 * speeds["top"]
@@ -121,7 +119,6 @@ def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: 
 
 
 def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(ran: Ran, tmp_path: Path, slope: Slope) -> None:
-    folder = tmp_path / "slide"
     release = write_rectangle(tmp_path / "edge.geojson", WEST + 23.0, SOUTH + 200.0, SIDE, SIDE)
     printed = slope.ok("--cut", release=release, thickness=THICK)
     assert printed.startswith(
@@ -132,8 +129,8 @@ def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(ran: Ran, tmp_pa
     assert (
         "the ramps rise 45.0 degrees against the DEM, which falls 30.0\n"
         "# degrees here; 70.0 m is needed, but the release is too narrow.\ntaper = 40.0  # m\n"
-    ) in (folder / "case.toml").read_text()
-    ran("--set", "time.end=0.01", case=folder)
+    ) in (slope.case / "case.toml").read_text()
+    ran("--set", "time.end=0.01", case=slope.case)
     assert release_volume(tmp_path / "run") == pytest.approx(VOLUME, rel=1e-9)
 
 

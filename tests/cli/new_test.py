@@ -24,11 +24,10 @@ from terrain_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rect
 
 
 def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> None:
-    folder = tmp_path / "slide"
     slope.ok()
-    case = tomllib.loads((folder / "case.toml").read_text())
+    case = tomllib.loads((slope.case / "case.toml").read_text())
     assert THICKNESS / (case["grid"]["cell"] / case["body"]["slide"]["particles_per_axis"]) >= 4.0
-    run = ran("--set", "time.end=1.5", case=folder)
+    run = ran("--set", "time.end=1.5", case=slope.case)
 
     volume = WIDTH * DEPTH * THICKNESS
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
@@ -88,13 +87,12 @@ def test_the_band_is_the_thinnest_that_friction_does_not_boil(
 
 def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """Without the key the run continues to time.end, with the same front and deposit."""
-    folder = tmp_path / "slide"
     slope.ok("--cell", 12)
     words = sets(time__end=40, time__rest_time=2, basal__friction="constant", basal__friction_angle=20)
     facts = {}
     for name, more in (("rest", []), ("complete", sets(time__stop_at_rest=0))):
         run = tmp_path / name
-        thawslide.ok("run", folder, "--output", run, *words, *more)
+        thawslide.ok("run", slope.case, "--output", run, *words, *more)
         facts[name] = run_facts(run)
         assert facts[name]["at_rest"] is True and facts[name]["status"] == "done"
     rest, complete = facts["rest"], facts["complete"]
@@ -141,14 +139,13 @@ def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
 def test_new_accepts_a_raster_of_the_thickness(ran: Ran, tmp_path: Path, slope: Slope) -> None:
     dem = slope()
     raster = write_thickness(tmp_path / "elsewhere" / "dem.tif", dem, THICKNESS)
-    folder = tmp_path / "slide"
     slope.ok(release=raster, thickness=None)
-    assert {path.name for path in folder.iterdir()} == {"case.toml", "sweep.toml", "dem.tif", "terrain.tif"}
-    assert (folder / "dem.tif").read_bytes() == raster.read_bytes()
-    case = tomllib.loads((folder / "case.toml").read_text())
+    assert {path.name for path in slope.case.iterdir()} == {"case.toml", "sweep.toml", "dem.tif", "terrain.tif"}
+    assert (slope.case / "dem.tif").read_bytes() == raster.read_bytes()
+    case = tomllib.loads((slope.case / "case.toml").read_text())
     assert case["terrain"]["file"] == "terrain.tif"
     assert case["body"]["slide"]["thickness"] == {"raster": "dem.tif"} and "release" not in case["body"]["slide"]
-    run = ran("--set", "time.end=0.01", case=folder)
+    run = ran("--set", "time.end=0.01", case=slope.case)
     assert release_volume(run) == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
 
 
@@ -178,9 +175,8 @@ def size_text(size: float) -> str:
 
 
 def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    folder = tmp_path / "slide"
     slope.ok()
-    with rasterio.open(folder / "dem.tif") as file:
+    with rasterio.open(slope.case / "dem.tif") as file:
         of_ground = file.width * file.height * 8
     usual = "2 x 2 of the DEM's, to be at least 18 m wide: three particle distances"
     note = (
@@ -188,7 +184,7 @@ def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Pa
         "speeds and pressures are those of single particles. Without maps.cell, maps have cells of 20 m.\n"
     )
     for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):
-        printed = thawslide.ok("check", folder, *words)
+        printed = thawslide.ok("check", slope.case, *words)
         assert (note in printed) == (cell == 5)
         facts = dict(re.findall(r"^  (\w+) +(\S.*)$", printed, re.MULTILINE))
         reported = re.fullmatch(
@@ -202,5 +198,5 @@ def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Pa
         one = int(reported[1]) * int(reported[2]) * 8
         sizes = f"12 of {size_text(one)}, 2 of {size_text(of_ground)}"
         assert f", 14 maps ({sizes}) before they are compressed; " in facts["disk"]
-    refusal = thawslide.error("check", folder, "--set", "maps.cell=0.01")
+    refusal = thawslide.error("check", slope.case, "--set", "maps.cell=0.01")
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

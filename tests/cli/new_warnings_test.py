@@ -39,19 +39,18 @@ def test_too_few_particles_across_have_a_warning(thawslide: Program, tmp_path: P
 
 
 def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    folder = tmp_path / "slide"
     printed = slope.ok()
     assert "warning: " not in printed and "  --resolution standard: cells of 6 m, about " in printed
-    text = (folder / "case.toml").read_text()
+    text = (slope.case / "case.toml").read_text()
     assert "need\n# 4: cells of 6 m (`thawslide new --resolution standard`), at about 16 times the run time.\n" in text
-    place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
+    place = f"{slope.case / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
     problem = f"grid.cell: {ACROSS}{MAPS} (found 2; needed 4). Set grid.cell to "
-    (note,) = warnings_of(thawslide, folder)
+    (note,) = warnings_of(thawslide, slope.case)
     assert note.startswith(f"{place}: {problem}") and note.endswith("Travel distance and speed need 2.")
-    run = thawslide.ok("run", folder, "--output", tmp_path / "run", *sets(time__end=0.01))
+    run = thawslide.ok("run", slope.case, "--output", tmp_path / "run", *sets(time__end=0.01))
     assert f"warning: {note}\n" in run and problem in thawslide.ok("check", tmp_path / "run")
-    (folder / "case.toml").write_text(text.partition("# Maps are updated")[0])
-    assert warnings_of(thawslide, folder) == [], "no key of maps is given"
+    (slope.case / "case.toml").write_text(text.partition("# Maps are updated")[0])
+    assert warnings_of(thawslide, slope.case) == [], "no key of maps is given"
 
     assert "warning: " not in slope.ok("--cell", 6, folder=tmp_path / "fine")
     assert "need 2 cells" not in (tmp_path / "fine" / "case.toml").read_text()

@@ -117,9 +117,8 @@ def test_a_slide_that_barely_moved_has_no_front(thawslide: Program, slope: Slope
     )
 
 
-def test_a_run_ends_when_all_particles_have_left(thawslide: Program, slope: Slope, tmp_path: Path) -> None:
+def test_a_run_ends_when_all_particles_have_left(thawslide: Program, slope: Slope, tmp_path: Path, run: Path) -> None:
     slope.new()
-    run = tmp_path / "run"
     words = [
         *sets(time__end=60, grid__cell=16, grid__leaving='"remove"', basal__friction_angle=3, band__model="scaled"),
         *sets(grid__min=[WEST + 128, SOUTH + 176, 960], grid__max=[WEST + 512, SOUTH + 432, 1216]),

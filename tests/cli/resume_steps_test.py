@@ -44,9 +44,8 @@ def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) ->
 
 @pytest.mark.parametrize("percent", [10, 40])
 def test_a_stopped_run_ends_bitwise_identical(
-    thawslide: Program, interrupted: conftest.Interrupted, whole: Path, tmp_path: Path, percent: int
+    thawslide: Program, interrupted: conftest.Interrupted, whole: Path, run: Path, percent: int
 ) -> None:
-    run = tmp_path / "run"
     assert interrupted(LAMPLUGH, run, WORDS, signal.SIGTERM, percent) == 4
     assert 0.0 < run_facts(run)["simulated_time_s"] < END
     thawslide.ok("resume", run, "--threads", 1)

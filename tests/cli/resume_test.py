@@ -23,9 +23,8 @@ def complete(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 10), (signal.SIGINT, 30)])
 def test_a_stopped_run_ends_bitwise_identical(
-    thawslide: Program, interrupted: Interrupted, complete: Path, tmp_path: Path, number: int, percent: int
+    thawslide: Program, interrupted: Interrupted, complete: Path, run: Path, number: int, percent: int
 ) -> None:
-    run = tmp_path / "run"
     assert interrupted(LAMPLUGH, run, WORDS, number, percent) == 4
     facts = run_facts(run)
     assert facts["status"] == "stopped" and facts["message"] == f"signal {int(number)}"
@@ -48,8 +47,7 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 600 / after["wall_s"])
 
 
-def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, complete: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, complete: Path, run: Path) -> None:
     assert interrupted(LAMPLUGH, run, WORDS, signal.SIGKILL, 30) == -signal.SIGKILL
     assert run_facts(run)["status"] == "running"
     rows = history(run)["time_s"]
@@ -67,8 +65,7 @@ def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, co
     assert_identical(complete, run)
 
 
-def test_a_stopped_run_prints_the_command_to_continue(thawslide: Program, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_stopped_run_prints_the_command_to_continue(thawslide: Program, run: Path) -> None:
     with thawslide.start("run", LAMPLUGH, "--output", run, *WORDS) as process:
         assert process.stdout
         while "%" not in process.stdout.readline():
@@ -126,9 +123,8 @@ def test_a_previous_checkpoint_replaces_a_damaged_one(ran: Ran, thawslide: Progr
     assert file.read_bytes() == (complete / "checkpoint.bin").read_bytes()
 
 
-def test_checkpoints_are_also_written_by_wall_clock_time(thawslide: Program, tmp_path: Path) -> None:
+def test_checkpoints_are_also_written_by_wall_clock_time(thawslide: Program, run: Path) -> None:
     """A second checkpoint exists long before the end, at which the next one would be due otherwise."""
-    run = tmp_path / "run"
     often = sets(checkpoint__wall_interval=0.2)
     with thawslide.start("run", LAMPLUGH, "--output", run, *often, stdout=subprocess.DEVNULL) as process:
         while not (run / "checkpoint.previous.bin").exists():
@@ -154,8 +150,7 @@ def test_a_run_killed_before_its_first_checkpoint_starts_again(thawslide: Progra
     assert run_facts(done)["inputs"] == run_facts(finished)["inputs"]
 
 
-def test_a_run_killed_before_its_case_can_be_repeated(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_run_killed_before_its_case_can_be_repeated(thawslide: Program, small_case: Path, run: Path) -> None:
     (run / "inputs").mkdir(parents=True)
     (run / "run.lock").write_text("process 1 on elsewhere\n")
     (run / "inputs" / ".case.toml.12.thawslide-part").write_text("half")

@@ -53,8 +53,7 @@ def test_ignored_signals_remain_ignored(started: Start, tmp_path: Path, ignored:
     assert process.returncode == 4
 
 
-def test_a_signal_ends_the_settling(thawslide: Program, started: Start, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_signal_ends_the_settling(thawslide: Program, started: Start, run: Path) -> None:
     process = started(run, "run.json", *SETTLES)
     time.sleep(0.3)
     process.send_signal(signal.SIGTERM)
@@ -90,16 +89,14 @@ def test_a_moved_run_does_not_change_another(thawslide: Program, started: Start,
     thawslide.ok("resume", moved, "--end", run_facts(moved)["simulated_time_s"] + 1)
 
 
-def test_a_run_does_not_restore_its_removed_folder(started: Start, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_run_does_not_restore_its_removed_folder(started: Start, tmp_path: Path, run: Path) -> None:
     process = started(run, SECOND, *LONG)
     shutil.rmtree(run.rename(tmp_path / "to be removed"))
     assert_stopped(process, run)
     assert not run.exists()
 
 
-def test_a_run_whose_lock_is_removed_stops(thawslide: Program, started: Start, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_run_whose_lock_is_removed_stops(thawslide: Program, started: Start, run: Path) -> None:
     process = started(run, SECOND, *LONG)
     (run / "run.lock").unlink()
     assert_stopped(process, run)

@@ -63,11 +63,10 @@ def test_particle_files_name_the_particle_that_was_split(thawslide: Program, pla
 
 
 def test_an_interrupted_run_continues_bitwise_identically(
-    thawslide: Program, interrupted: Interrupted, plane: list[str], tmp_path: Path
+    thawslide: Program, interrupted: Interrupted, plane: list[str], tmp_path: Path, run: Path
 ) -> None:
     case, *words = [plane[0], *SPLITS, *sets(grid__cell=20)]
     thawslide.ok("run", case, *words, "--output", tmp_path / "complete", "--threads", 1)
-    run = tmp_path / "run"
     assert interrupted(Path(case), run, words, signal.SIGINT, 40) == 4
     assert run_facts(run)["simulated_time_s"] < 45.0
     thawslide.ok("resume", run)

@@ -45,8 +45,7 @@ with_locks = pytest.mark.parametrize("environment", ["locks"], indirect=True)
 
 
 @with_locks
-def test_status_of_running_and_killed_runs(thawslide: Program, running: Process, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_status_of_running_and_killed_runs(thawslide: Program, running: Process, run: Path) -> None:
     printed = thawslide.ok("status", run)
     process = f"process {running.pid} on {socket.gethostname()}"
     assert re.fullmatch(

@@ -27,8 +27,7 @@ def test_lost_output_is_reported(thawslide: Program, small_case: Path, words: st
 
 
 @needs_full_disk
-def test_a_run_needs_no_terminal(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_a_run_needs_no_terminal(thawslide: Program, small_case: Path, run: Path) -> None:
     for words, code in (
         (["run", small_case, "--output", run], 0),
         (["status", run], 5),
@@ -84,8 +83,7 @@ def test_a_file_above_its_limit_is_reported(thawslide: Program, small_case: Path
     assert "error: the output cannot be written: File too large." in done.stderr
 
 
-def test_memory_exhausted_during_a_run_stops_it_resumably(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_memory_exhausted_during_a_run_stops_it_resumably(thawslide: Program, small_case: Path, run: Path) -> None:
     fine = sets(grid__cell=0.5, body__block__particles_per_axis=16, time__end=60, time__output_interval=0.02)
     words = ("run", small_case, *fine, "--output", run, "--threads", 1)
     with thawslide.start(*words, stdout=subprocess.DEVNULL) as process:
