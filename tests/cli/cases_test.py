@@ -5,7 +5,6 @@ The files of `cases/` run for their first seconds. Of a comparison, a short run 
 
 import math
 import re
-import sys
 import tomllib
 from collections import Counter
 from collections.abc import Mapping
@@ -16,8 +15,6 @@ import pytest
 from conftest import ROOT, Program, Ran, columns_of, history, run_facts
 from random_cases import attempt, draw
 from terrain_files import SOUTH, WEST, write_rectangle, write_slope
-
-sys.path.append(str(ROOT))
 
 from reproduction.studies import frank, joffre, joffre_judged, refinement
 from reproduction.study import Job, Place

@@ -18,6 +18,7 @@ import rasterio
 from terrain_files import SOUTH, THICKNESS, WEST, toml, write_rectangle, write_slope
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT))  # of the package reproduction
 LAMPLUGH = ROOT / "cases" / "lamplugh"
 PIPES = {"text": True, "stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
 HANG = 600.0  # s: a process that takes longer hangs; a busy machine reaches no such time

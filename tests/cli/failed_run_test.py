@@ -1,12 +1,14 @@
-"""Runs that fail or reach unphysical temperatures: exit codes, messages with position, time and cause, last state."""
+"""Early ends of a run, with position, time, cause and last state: failures, guards, rest, unphysical temperatures."""
 
 import re
+import signal
 from collections.abc import Callable
 from pathlib import Path
 
+import conftest
 import h5py
 import pytest
-from conftest import FALL, LAMPLUGH, Program, edit, history, run_facts, sets, snapshot_files
+from conftest import FALL, LAMPLUGH, Interrupted, Program, Ran, edit, history, run_facts, sets, snapshot_files
 
 PATTERN = (
     r"error: the run failed at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
@@ -124,3 +126,127 @@ def test_without_steam_nothing_boils(warnings_of_run: RunWarnings, words: list[s
 
 def test_a_cold_base_has_no_warning(warnings_of_run: RunWarnings) -> None:
     assert warnings_of_run(*sets(basal__friction_angle=10, band__thickness=0.1)) == []
+
+
+# A block of 48 particles that slides to a stop within about 1.2 s.
+SLIDES = sets(time__end=5, body__block__velocity="[2,0]", material__rock__viscosity_time=0.0005)
+SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.01)
+RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
+
+
+def test_a_run_ends_at_rest(ran: Ran, thawslide: Program, small_case: Path, run: Path) -> None:
+    printed = thawslide.ok("run", small_case, "--output", run, *RESTS)
+    facts = run_facts(run)
+    reported = re.fullmatch(
+        r"the slide is at rest: since t = (\S+) s no more than 0\.5 % of its mass has moved faster than 0\.1 m/s "
+        r"\(time\.stop_at_rest\)",
+        facts["message"],
+    )
+    assert reported, facts["message"]
+    assert printed.endswith(facts["message"] + "\n")
+    assert facts["status"] == "done"
+    end = facts["simulated_time_s"]
+    assert end == pytest.approx(float(reported[1]) + 0.4, abs=0.0101) and 1.0 < end < 2.0
+    # All outputs have that time; until then the run equals the one without the key.
+    columns = history(run)
+    assert columns["time_s"][-1] == end
+    complete = ran(*SLIDES, *sets(time__end=end), name="complete")
+    conftest.assert_identical(run, complete)
+
+
+def test_a_run_at_rest_is_not_changed_and_continues_by_a_changed_case(ran: Ran, thawslide: Program) -> None:
+    run = ran(*RESTS)
+    before, rest = conftest.content_of(run), run_facts(run)["simulated_time_s"]
+    reported = run_facts(run)["message"]
+    assert reported.startswith("the slide is at rest: ")
+    assert thawslide.ok("resume", run) == f"{run} has reached its end at {rest:g} s: {reported}; nothing to do\n"
+    assert thawslide.ok("resume", run, "--end", 6) == (
+        f"{run} has come to rest at {rest:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n"
+    )
+    assert conftest.content_of(run) == before
+    thawslide.ok("resume", run, *sets(time__rest_time=0.6))
+    longer = run_facts(run)
+    assert longer["simulated_time_s"] == pytest.approx(rest + 0.2, abs=0.02)
+    assert longer["message"].startswith("the slide is at rest")
+    thawslide.ok("resume", run, *sets(time__rest_time=0.4, basal__friction_angle=5))
+    again = run_facts(run)
+    assert again["simulated_time_s"] == pytest.approx(longer["simulated_time_s"] + 0.4, abs=0.03)
+    assert again["parts"][-1]["changes"] == ["time.rest_time=0.4", "basal.friction_angle=5"]
+    thawslide.ok("resume", run, "--end", again["simulated_time_s"] + 0.5, "--set", "time.stop_at_rest=0")
+    assert run_facts(run)["simulated_time_s"] == pytest.approx(again["simulated_time_s"] + 0.5)
+    assert run_facts(run)["message"] == ""
+    text = (run / "case.toml").read_text()
+    assert "stop_at_rest = 0.0 " in text and "rest_time = 0.4 " in text
+
+
+def test_a_run_at_rest_without_its_last_checkpoint_ends_at_the_same_rest(ran: Ran, thawslide: Program) -> None:
+    run = ran(*RESTS, *sets(checkpoint__interval=0.3, time__history_interval=0.1, time__output_interval=1))
+    rows = (run / "history.csv").read_bytes()
+    (run / "checkpoint.bin").unlink()
+    thawslide.ok("resume", run, "--end", 5.5)
+    assert (run / "history.csv").read_bytes() == rows
+
+
+def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, run: Path) -> None:
+    """With contact one cell too early, the ground rebounds the falling block with more energy than it had."""
+    fall = sets(time__end=2, body__block__min="[10,3]", body__block__max="[14,6]", basal__distance_check="false")
+    message = thawslide.error("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001), code=3)
+    assert "J per m of width without a physical cause" in message
+    assert "Set it to true" in message and "widen" not in message
+    facts = run_facts(run)
+    assert facts["status"] == "failed" and message == f"error: {facts['message']}\n"
+    assert len(list((run / "snapshots").iterdir())) > 1
+
+
+def test_removed_particles_are_counted(thawslide: Program, run: Path) -> None:
+    words = sets(time__end=20, guards__volume='"remove"', guards__removed_mass=0.05)
+    outcome = thawslide("run", LAMPLUGH, "--output", run, *SOFT, *words)
+    assert outcome.returncode == 3
+    reported = re.fullmatch(
+        r"error: the run failed at t = \S+ s \(step (\d+)\): \[guards\] has removed (\d+) particles: 0 not finite, "
+        r"(\d+) by their volume, (\S+) % of all mass, where guards\.removed_mass allows 5 %; among the last: particle "
+        r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, where guards\.smallest_volume "
+        r"allows 0\.25\. Likely cause: material 'rock_ice' is too soft \(youngs_modulus 0\.5 Pa\) and collapses "
+        r"under its own weight\. Typical values for broken rock and ice are 1e7 Pa or more\.\n",
+        outcome.stderr,
+    )
+    assert reported, outcome.stderr
+    assert reported[2] == reported[3] and float(reported[4]) > 5.0
+    assert re.search(
+        r"warning: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv "
+        r"has their mass, run\.json their number\n",
+        outcome.stdout,
+    )
+    removed = f"{reported[2]} particles: 0 not finite, {reported[2]} by their volume"
+    assert f"guards have removed {removed}\n" in outcome.stdout
+    facts, columns = run_facts(run), history(run)
+    assert facts["removed_particles"] == {"left": 0, "not_finite": 0, "volume": int(reported[2])}
+    assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
+    assert columns["removed_mass_kg"][-2] <= 0.05 * columns["mass_kg"][0], "the run ends at the limit"
+
+
+def test_resume_keeps_removed_particles(ran: Ran, thawslide: Program, interrupted: Interrupted, run: Path) -> None:
+    guards = {"guards__volume": '"remove"', "guards__removed_mass": 1, "guards__smallest_volume": 0.5}
+    words = [*SOFT, *sets(time__end=4.5, time__output_interval=0.7, **guards)]
+    complete = ran(*words, case=LAMPLUGH, name="complete")
+    assert interrupted(LAMPLUGH, run, words, signal.SIGTERM, 60) == 4
+    thawslide.ok("resume", run)
+    conftest.assert_identical(run, complete)
+    removed = run_facts(complete)["removed_particles"]
+    assert run_facts(run)["removed_particles"] == removed and removed["volume"] > 0
+    assert (run / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()
+
+
+def test_slow_energy_growth_is_reported_once(ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    slow = sets(time__end=30, time__history_interval=1, time__output_interval=10, guards__energy_growth=0.02)
+    undamped = sets(material__rock__viscosity_number=0)
+    slow += sets(body__block__max="[15.0,5.0]")
+    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow, *undamped)
+    assert outcome.returncode == 0, outcome.stderr
+    message = outcome.stdout + outcome.stderr
+    assert message.count("gradually and without a physical cause") == 1
+    assert "viscosity_number" in message
+    slow += sets(material__rock__viscosity_time=0.002)
+    damped = thawslide("run", small_case, "--output", tmp_path / "damped", *slow)
+    assert damped.returncode == 0
+    assert "without a physical cause" not in damped.stdout + damped.stderr

@@ -1,14 +1,21 @@
-"""Interrupted and resumed runs: results are bitwise identical to those of uninterrupted runs."""
+"""Interrupted and resumed runs: results are bitwise identical to those of uninterrupted runs.
+
+Also with other steps and adaptive steps, and for a copy of a run (`resume --output`), which leaves the run itself as
+it is.
+"""
 
 import re
 import shutil
 import signal
 import subprocess
+import time
 from pathlib import Path
 
+import conftest
+import numpy as np
 import pytest
-from conftest import HANG, LAMPLUGH, Interrupted, Program, Ran, assert_identical, history, mark_killed, run_facts, sets
-from faults import before_its_first_checkpoint, digest
+from conftest import LAMPLUGH, Program, Ran, assert_identical, history, mark_killed, run_facts, sets, snapshot_files
+from faults import before_its_first_checkpoint, digest, environment_of_fault, needs_failing_writes
 
 # Rows, snapshots and checkpoints have different times.
 WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
@@ -23,7 +30,7 @@ def complete(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 10), (signal.SIGINT, 30)])
 def test_a_stopped_run_ends_bitwise_identical(
-    thawslide: Program, interrupted: Interrupted, complete: Path, run: Path, number: int, percent: int
+    thawslide: Program, interrupted: conftest.Interrupted, complete: Path, run: Path, number: int, percent: int
 ) -> None:
     assert interrupted(LAMPLUGH, run, WORDS, number, percent) == 4
     facts = run_facts(run)
@@ -47,7 +54,9 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 600 / after["wall_s"])
 
 
-def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, complete: Path, run: Path) -> None:
+def test_a_killed_run_continues(
+    thawslide: Program, interrupted: conftest.Interrupted, complete: Path, run: Path
+) -> None:
     assert interrupted(LAMPLUGH, run, WORDS, signal.SIGKILL, 30) == -signal.SIGKILL
     assert run_facts(run)["status"] == "running"
     rows = history(run)["time_s"]
@@ -71,7 +80,7 @@ def test_a_stopped_run_prints_the_command_to_continue(thawslide: Program, run: P
         while "%" not in process.stdout.readline():
             assert process.poll() is None
         process.terminate()
-        _, errors = process.communicate(timeout=HANG)
+        _, errors = process.communicate(timeout=conftest.HANG)
     stop = run_facts(run)["simulated_time_s"]
     assert errors == f"interrupted by signal 15 at t = {stop:g} s. To continue: thawslide resume {run}\n"
 
@@ -157,3 +166,190 @@ def test_a_run_killed_before_its_case_can_be_repeated(thawslide: Program, small_
     thawslide.ok("run", small_case, "--output", run)
     assert sorted(file.name for file in (run / "inputs").iterdir()) == ["case.toml"]
     assert not (run / "run.lock").exists()
+
+
+ADAPTIVE_END, ROWS, SNAPSHOTS = 3.0, 0.09, 0.45  # s; each snapshot has a row; steps end at snapshots only
+ADAPTIVE = sets(time__safety=0.77, time__end=ADAPTIVE_END, time__history_interval=ROWS, time__output_interval=SNAPSHOTS)
+
+
+@pytest.fixture(scope="module")
+def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    run = tmp_path_factory.mktemp("runs") / "whole"
+    thawslide.ok("run", LAMPLUGH, "--output", run, *ADAPTIVE)
+    return run
+
+
+def test_each_row_follows_the_first_step_that_reaches_its_time(ran: Ran, whole: Path) -> None:
+    words = [*ADAPTIVE, *sets(time__history_interval=0)]
+    every = ran(*words, case=LAMPLUGH, name="every")
+    steps, rows = history(every)["time_s"], history(whole)["time_s"]
+    due = [*np.arange(0.0, ADAPTIVE_END, ROWS), ADAPTIVE_END]
+    round_off = 1e-9
+    assert rows.tolist() == [steps[np.argmax(steps > due_time - round_off)] for due_time in due]
+    assert np.any(rows > np.array(due) + 1e-4), "no row is late: the test has no effect"
+
+
+def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) -> None:
+    words = [*ADAPTIVE, *sets(time__history_interval=1.1)]
+    few = ran(*words, case=LAMPLUGH, name="few")
+    assert run_facts(few)["steps"] == run_facts(whole)["steps"]
+    for one, other in zip(snapshot_files(few), snapshot_files(whole), strict=True):
+        first, second = conftest.datasets(one), conftest.datasets(other)
+        assert all(values.tobytes() == second[key].tobytes() for key, values in first.items()), one.name
+    rows = history(whole)["time_s"]
+    late = [float(np.min(np.abs(rows - due_time))) for due_time in np.arange(0.0, ADAPTIVE_END, SNAPSHOTS)]
+    assert late == pytest.approx(np.zeros(len(late)), abs=1e-9), "each snapshot has a row of its time"
+
+
+@pytest.mark.parametrize("percent", [10, 40])
+def test_a_stopped_run_with_adaptive_steps_ends_bitwise_identical(
+    thawslide: Program, interrupted: conftest.Interrupted, whole: Path, run: Path, percent: int
+) -> None:
+    assert interrupted(LAMPLUGH, run, ADAPTIVE, signal.SIGTERM, percent) == 4
+    assert 0.0 < run_facts(run)["simulated_time_s"] < ADAPTIVE_END
+    thawslide.ok("resume", run, "--threads", 1)
+    assert_identical(whole, run)
+    assert run_facts(run)["steps"] == run_facts(whole)["steps"]
+
+
+RESTS = sets(
+    time__end=2, time__history_interval=0.05, time__output_interval=0.5, body__block__velocity="[3,0]",
+    time__stop_at_rest=0.5, time__rest_time=0.0515,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("step", "steps"), [(0.002, 25), (0.0005, 100), (0.0007, 71)])
+def test_time_continues_from_the_end_with_other_steps(thawslide: Program, done: Path, step: float, steps: int) -> None:
+    thawslide.ok("resume", done, "--end", 0.25, *sets(time__step=step, time__history_interval=0))
+    rows = history(done)
+    end = run_facts(done)["simulated_time_s"]
+    assert end == pytest.approx(0.2 + steps * step, rel=1e-12) and abs(end - 0.25) <= 0.5 * step
+    assert run_facts(done)["steps"] == 200 + steps
+    times = rows["time_s"][rows["step"] >= 200]
+    assert times[0] == 0.2 and len(times) == steps + 1
+    assert np.diff(times) == pytest.approx(step, rel=1e-9)
+
+
+def test_time_continues_when_steps_become_adaptive_and_fixed_again(thawslide: Program, done: Path) -> None:
+    changes = sets(time__stepping="adaptive", time__history_interval=0)
+    thawslide.ok("resume", done, "--end", 0.25, *changes)
+    assert run_facts(done)["simulated_time_s"] == 0.25
+    thawslide.ok("resume", done, "--end", 0.3, *sets(time__stepping="fixed"))
+    rows = history(done)
+    assert rows["time_s"][-1] == pytest.approx(0.3, abs=1e-12)
+    assert np.all(np.diff(rows["time_s"]) > 0)
+    assert np.diff(rows["time_s"][rows["time_s"] >= 0.25]) == pytest.approx(0.001, rel=1e-6)
+
+
+def test_other_steps_are_bitwise_identical_after_a_kill(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    words = ["--end", 0.3, *sets(time__step=0.0007, checkpoint__interval=0.03)]
+    twice = tmp_path / "twice"
+    shutil.copytree(done, twice)
+    thawslide.ok("resume", done, *words)
+    thawslide.ok("resume", twice, *words)
+    mark_killed(twice)
+    (twice / "checkpoint.previous.bin").rename(twice / "checkpoint.bin")
+    assert "continuing from t = 0.2" in thawslide.ok("resume", twice)
+    assert_identical(done, twice)
+
+
+def test_checkpoints_change_no_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    words = sets(time__stepping="adaptive", time__end=0.5, time__history_interval=0.07, body__block__velocity="[2,0]")
+    runs = [tmp_path / name for name in ("without", "with")]
+    for run, interval in zip(runs, (0, 0.013), strict=True):
+        thawslide.ok("run", small_case, "--output", run, *words, *sets(checkpoint__interval=interval))
+    assert_identical(*runs)
+
+
+def test_the_guard_of_small_steps_acts_once_steps_are_adaptive(thawslide: Program, done: Path) -> None:
+    """Later steps are compared with the first adaptive step."""
+    changes = sets(time__stepping="adaptive", time__step=1, guards__smallest_step=0.9)
+    thawslide.ok("resume", done, "--end", 0.25, *changes)
+    message = thawslide.error("resume", done, "--end", 0.3, *sets(time__safety=0.4), code=3)
+    assert "where guards.smallest_step allows 0.9" in message
+
+
+@pytest.mark.parametrize("interval", [0.001, 10.0])
+def test_last_row_and_snapshot_precede_the_checkpoint(ran: Ran, thawslide: Program, interval: float) -> None:
+    """Therefore a kill between them loses no results."""
+    run = ran(*RESTS, *sets(checkpoint__interval=interval))
+    rest = run_facts(run)["simulated_time_s"]
+    rows, names = (run / "history.csv").read_bytes(), [file.name for file in snapshot_files(run)]
+    assert history(run)["time_s"][-1] == rest
+    mark_killed(run)
+    thawslide.ok("resume", run)
+    assert (run / "history.csv").read_bytes() == rows
+    assert [file.name for file in snapshot_files(run)] == names
+    assert run_facts(run)["message"].startswith("the slide is at rest")
+
+
+MEGABYTE = 2**20
+
+
+def test_a_copy_continues_as_the_run_itself_would(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    before, branch = conftest.content_of(done), tmp_path / "new" / "branch"
+    printed = thawslide.ok("resume", done, "--output", branch, "--end", 0.3, *sets(basal__friction_angle=5))
+    assert f"{done} is copied to {branch}\n" in printed
+    assert conftest.content_of(done) == before
+    assert history(branch)["time_s"][-1] == 0.3
+    assert [part["changes"] for part in run_facts(branch)["parts"]] == [[], ["basal.friction_angle=5", "time.end=0.3"]]
+    thawslide.ok("resume", done, "--end", 0.3, *sets(basal__friction_angle=5))
+    assert (branch / "history.csv").read_bytes() == (done / "history.csv").read_bytes()
+    names = [{path.name for path in (run / "snapshots").iterdir()} for run in (done, branch)]
+    assert names[0] == names[1]
+
+
+def test_a_change_that_is_refused_leaves_no_copy(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    before, branch = conftest.content_of(done), tmp_path / "branch"
+    for words, message in (
+        (sets(grid__cell=2), "grid.cell cannot be changed on resume"),
+        (sets(time__ende=2), "key 'time.ende' is not known in [time]"),
+        (sets(basal__friction_angle=5), "has reached its end at 0.2 s: no step is left"),
+    ):
+        assert message in thawslide.error("resume", done, "--output", branch, *words)
+        assert not branch.exists()
+    assert conftest.content_of(done) == before
+
+
+@needs_failing_writes
+def test_a_copy_that_fails_is_removed_and_the_run_unchanged(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    before, branch = conftest.content_of(done), tmp_path / "branch"
+    words = ("resume", done, "--output", branch, "--end", 0.3)
+    failures = 0
+    for at in range(1, 100):
+        outcome = thawslide(*words, environment=environment_of_fault(branch, at, "once", "full"))
+        if "is copied to" in outcome.stdout:
+            break
+        failures += 1
+        assert outcome.returncode == 5, outcome.stderr
+        assert "No space left on device" in outcome.stderr
+        assert not branch.exists()
+        assert conftest.content_of(done) == before
+    assert failures > 5  # folders and files of the copy
+
+
+@needs_failing_writes
+def test_a_copy_that_fails_in_an_empty_folder_leaves_it_empty(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    branch = tmp_path / "branch"
+    branch.mkdir()
+    words = ("resume", done, "--output", branch, "--end", 0.3)
+    assert thawslide(*words, environment=environment_of_fault(branch, 4, "once", "full")).returncode == 5
+    assert list(branch.iterdir()) == []
+    thawslide.ok(*words)
+
+
+def test_a_run_is_locked_while_it_is_copied(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    with (done / "terrain.csv").open("ab") as file:
+        file.truncate(200 * MEGABYTE)
+    before, branch = {path: path.stat().st_size for path in done.rglob("*")}, tmp_path / "branch"
+    with thawslide.start("resume", done, "--output", branch, "--end", 0.3) as process:
+        while process.poll() is None and not (branch / "terrain.csv").exists():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGSTOP)
+        assert not (branch / "run.json").exists(), "the copy was complete before the test could stop it"
+        message = thawslide.error("resume", done, "--end", 0.3)
+        process.send_signal(signal.SIGCONT)
+        process.communicate(timeout=conftest.HANG)
+        assert process.returncode == 0
+    assert f"{done} is being written by process {process.pid} on " in message
+    assert {path: path.stat().st_size for path in done.rglob("*")} == before

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import ROOT, Capture
-from probability_test import read, write
+from conftest import ROOT, Capture, read, write
 from slope_case import write_slope_case
 
 import thawslide

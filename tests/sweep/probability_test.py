@@ -1,47 +1,22 @@
-"""Probability and quantile maps against NumPy, extents, and refused rasters."""
+"""Probability and quantile maps against NumPy, those of sweeps of a 3D case, extents, and refused rasters."""
 
-import json
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import rasterio
-from conftest import Capture
+from conftest import CELL, Capture, read, write, write_box
 
 from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
 from thawslide.figures.colours import PROBABILITY_LIMITS
+from thawslide.sweeps.command import main
+from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.map_figure import probability_maps
 from thawslide.sweeps.probability import rasters_in, write_probability_maps
-from thawslide.sweeps.probability_command import main
-
-CELL, NO_DATA = 10.0, -9999.0
-
-
-def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0, cell: float = CELL) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    rows, columns = values.shape
-    with rasterio.open(
-        path, "w", driver="GTiff", dtype="float64", count=1, width=columns, height=rows, nodata=NO_DATA,
-        transform=rasterio.Affine(cell, 0.0, west, 0.0, -cell, north), crs="EPSG:32608",
-    ) as file:  # fmt: skip
-        file.write(np.where(np.isnan(values), NO_DATA, values), 1)
-    return path
-
-
-def write_box(path: Path, west: float, east: float, south: float, north: float) -> Path:
-    """Write a rectangle as GeoJSON."""
-    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
-    feature = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
-    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32608"}}
-    path.write_text(json.dumps({"type": "FeatureCollection", "crs": crs, "features": [feature]}))
-    return path
-
-
-def read(path: Path) -> Numbers:
-    with rasterio.open(path) as file:
-        return np.ma.filled(file.read(1, masked=True), np.nan)
+from thawslide.sweeps.probability_command import main as probability
 
 
 @pytest.fixture
@@ -122,7 +97,7 @@ def test_map_of_reached_cells_has_a_threshold(ensemble: tuple[list[Path], dict[s
 def test_extents_can_differ_by_whole_cells_only(tmp_path: Path) -> None:
     values = {"a": [[1.0, 2.0]], "b": [[3.0, 4.0]]}
     files = [write(tmp_path / f"{k}.tif", np.array(values[k]), west=west) for k, west in (("a", 0.0), ("b", CELL))]
-    assert main([*map(str, files), "--output", str(tmp_path / "out"), "--thickness", "1.5"]) == 0
+    assert probability([*map(str, files), "--output", str(tmp_path / "out"), "--thickness", "1.5"]) == 0
     assert np.array_equal(read(tmp_path / "out" / "thickness_above_1.5.tif"), [[0.0, 1.0, 0.5]])
     first = write(tmp_path / "first.tif", np.ones((2, 2)))
     for other in (
@@ -135,8 +110,8 @@ def test_extents_can_differ_by_whole_cells_only(tmp_path: Path) -> None:
 
 def test_folders_without_maps_are_refused(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "empty").mkdir()
-    assert main([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
-    assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
+    assert probability([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
+    assert probability([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -157,7 +132,7 @@ def test_another_raster_than_a_map_is_named(
 ) -> None:
     plain = write(tmp_path / "plain.tif", np.where(np.arange(12) > 5, np.nan, 3.0).reshape(3, 4))
     odd = write(tmp_path / "odd.tif", values.reshape(3, 4))
-    assert main([str(plain), str(odd), "--quantity", quantity, "--output", str(tmp_path / "out")]) == 0
+    assert probability([str(plain), str(odd), "--quantity", quantity, "--output", str(tmp_path / "out")]) == 0
     noted = [line for line in capsys.readouterr().err.splitlines() if "such as a DEM" in line]
     assert [str(odd) in line for line in noted] == [True] * is_noted
 
@@ -180,3 +155,62 @@ def test_figure_has_probabilities_in_classes_and_one_bar_for_each_quantity(tmp_p
         shades = [float(norm(0.5 * (low + high))) for low, high in pairwise(PROBABILITY_LIMITS)]
         assert len(set(shades)) == 6 and norm(0.051) == norm(0.249) != norm(0.251)
     assert norms[2].vmax == norms[3].vmax == pytest.approx(12.0)
+
+
+def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capfd: Capture) -> None:
+    sweep = tmp_path / "sweep"
+    command = [str(plane), "--vary", "basal.friction_angle=5:35:10", "--output", str(sweep), "--thickness", "2,10"]
+    assert main([*command, "--speed", "5"]) == 0
+    table = pd.read_parquet(sweep / "members.parquet")
+    assert list(table["status"]) == ["done"] * 4 and table["peak_speed_m_s"].is_monotonic_decreasing
+    folders = [SweepFolder(sweep).run_folder(number) for number in SweepFolder(sweep).done_members()]
+    thickness = np.array([read(folder / "maps" / "max_thickness.tif") for folder in folders])
+    arrival = np.array([read(folder / "maps" / "arrival_time.tif") for folder in folders])
+    maps = sweep / "probability"
+    assert np.array_equal(read(maps / "reached.tif"), np.isfinite(arrival).mean(axis=0))
+    assert np.array_equal(read(maps / "thickness_above_10.tif"), (np.nan_to_num(thickness) > 10.0).mean(axis=0))
+    median = np.quantile(np.nan_to_num(thickness), 0.5, axis=0, method="inverted_cdf")
+    assert np.array_equal(read(maps / "thickness_p50.tif"), median)
+    assert {path.name for path in folders[0].iterdir()} == {"case.toml", "history.csv", "maps", "run.json"}
+    page = (sweep / "sweep.html").read_text()
+    assert page.count("data:image/png") == 5 and "Not available" not in page
+    assert "Reached: thickness above 0.1 m." in page
+    assert probability([str(sweep), "--output", str(tmp_path / "again"), "--thickness", "10"]) == 0
+    again = (tmp_path / "again" / "thickness_above_10.tif").read_bytes()
+    assert again == (maps / "thickness_above_10.tif").read_bytes()
+    assert capfd.readouterr().err.endswith("maps of 4 members\n")
+    SweepFolder(sweep).write_record(3, {"status": "running", "starts": 1})
+    assert probability([str(sweep), "--output", str(tmp_path / "three")]) == 0
+    words = "maps of 3 members; not finished: 1. To continue, repeat the command of the sweep.\n"
+    assert capfd.readouterr().err.endswith(words)
+
+
+def test_maps_that_are_not_kept_are_removed(plane: Path, tmp_path: Path, capfd: Capture) -> None:
+    sweep = tmp_path / "sweep"
+    command = [str(plane), "--vary", "basal.friction_angle=5,25", "--output", str(sweep), "--keep", "none"]
+    assert main(command) == 0
+    reached = read(sweep / "probability" / "reached.tif")
+    assert np.nanmax(reached) == 1.0
+    assert not (SweepFolder(sweep).run_folder(0) / "maps").exists()
+    assert main(command) == 0  # the page is written again from the maps of the sweep
+    assert np.array_equal(read(sweep / "probability" / "reached.tif"), reached)
+    assert list(pd.read_parquet(sweep / "members.parquet")["starts"]) == [1, 1]
+    assert main([*command, "--thickness", "2"]) == 2
+    assert "the thresholds cannot change (found thickness 2; allowed 0.5,1,5)" in capfd.readouterr().err
+
+
+def test_depths_of_a_bed_vary_and_changed_polygons_run_again(plane: Path, tmp_path: Path) -> None:
+    with (plane / "case.toml").open("a") as case:
+        case.write(
+            '[bed]\nlaw = "strength"\noutline = "bed.geojson"\ndepth = 1.0\nstrength = 0.0\ndepth_per_slip = 0.1\n'
+            'material = "rock"\n'
+        )
+    sweep = SweepFolder(tmp_path / "sweep")
+    for east in (400_150.0, 400_163.0):
+        west, south, height = 400_080.0, 6_500_045.0, 67.0
+        write_box(plane / "bed.geojson", west, east, south, south + height)
+        assert main([str(plane), "--vary", "bed.depth=0.5,2.0", "--output", str(tmp_path / "sweep")]) == 0
+        histories = [pd.read_csv(sweep.run_folder(number) / "history.csv") for number in sweep.done_members()]
+        for depth, rows in zip((0.5, 2.0), histories, strict=True):
+            density = rows["entrained_mass_kg"].iloc[-1] / rows["entrained_volume_m3"].iloc[-1]
+            assert rows["bed_mass_kg"].iloc[0] == pytest.approx(density * depth * (east - west) * height, rel=1e-11)

@@ -7,9 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import scoringrules
-from conftest import Capture
-from maps_test import plane  # noqa: F401
-from probability_test import CELL, write, write_box
+from conftest import CELL, Capture, write, write_box
 
 from thawslide.figures.force_record import Comparison, Curves
 from thawslide.force_record import extreme_times
@@ -216,7 +214,7 @@ def test_a_far_outline_is_an_error(tmp_path: Path, capfd: Capture) -> None:
 
 @pytest.mark.parametrize("keep", ["maps", "none"])
 def test_the_page_of_a_sweep_has_its_score_before_the_maps(
-    plane: Path,  # noqa: F811
+    plane: Path,
     tmp_path: Path,
     capfd: Capture,
     keep: str,
@@ -251,7 +249,7 @@ def test_the_page_of_a_sweep_has_its_score_before_the_maps(
     assert stored_section(page.parent) in page.read_text() and stored_section(page.parent) in first
 
 
-def test_a_single_run_has_differences(plane: Path, tmp_path: Path, capfd: Capture) -> None:  # noqa: F811
+def test_a_single_run_has_differences(plane: Path, tmp_path: Path, capfd: Capture) -> None:
     from thawslide import run
 
     found = run(plane, tmp_path / "run")
