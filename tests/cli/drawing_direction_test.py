@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rasterio
-from conftest import ROOT, Program, Ran, columns_of, edit, history, run_facts, sets
+from conftest import ROOT, Program, columns_of, history, run_facts, sets, with_profile
 from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line
 
 FAULTS = ROOT.parent / "shared" / "data" / "faults"
@@ -121,60 +121,11 @@ def test_section_keeps_its_direction(thawslide: Program, tmp_path: Path, is_reve
     assert rows[np.argmax(rows[:, 2] - rows[:, 1]), 0] < 200.0, "the release is at the beginning"
 
 
-SLOPE_ON_PROFILE = toml("""
-[time] end = 1.5 | step = 0.002 | output_interval = 1.5 | history_interval = 0.5
-[grid] cell = 5.0 | min = [0.0, 0.0] | max = [400.0, 400.0]
-[terrain] type = "profile" | file = "profile.csv"
-[material.rock] law = "elastic" | youngs_modulus = 1.0e8 | poisson_ratio = 0.2 | viscosity_time = 0.02
-[body.slide] material = "rock" | shape = "polygon" | vertices = {vertices}
-[basal] friction = "constant" | friction_angle = 10.0
-[heat] enabled = false
-[pressure] enabled = false
-""")
-
-
-def write_slope_on_profile(folder: Path, sign: float) -> Path:
-    """Write a slide that moves towards +x or -x down a profile."""
-
-    def points(corners: list[tuple[float, float]]) -> list[list[float]]:
-        return [[along if sign > 0.0 else 400.0 - along, 300.0 - 0.6 * along + up] for along, up in corners]
-
-    rows = sorted(points([(0.0, 0.0), (200.0, 0.0), (400.0, 0.0)]))
-    folder.mkdir()
-    text = "".join(f"{x!r},{y!r}\n" for x, y in rows)
-    (folder / "profile.csv").write_text("distance_m,terrain_elevation_m\n" + text)
-    vertices = points([(100.0, 0.0), (140.0, 0.0), (140.0, 30.0), (100.0, 30.0)])
-    (folder / "case.toml").write_text(SLOPE_ON_PROFILE.format(vertices=vertices))
-    return folder / "case.toml"
-
-
-def test_slides_towards_lower_and_higher_x_are_mirror_images(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
-    """On a profile: tests/cpp/sim/direction_test.cpp has planes, tilted gravity and velocities."""
-    rows, block = [], []
-    for name, sign in (("right", 1.0), ("left", -1.0)):
-        case = write_slope_on_profile(tmp_path / name, sign)
-        rows.append(history(ran("--threads", 1, case=case, name=f"run-{name}")))
-        thawslide.ok("block", case, "--output", tmp_path / "block.csv")
-        block.append(columns_of(tmp_path / "block.csv"))
-    for right, left in (rows, block):
-        assert left["front_position_m"] == pytest.approx(400.0 - right["front_position_m"], abs=1e-6)
-    right, left = rows
-    assert right["runout_m"][-1] > right["runout_m"][0] + 2.0
-    for column in ("runout_m", "mean_displacement_m", "mean_velocity_m_s", "friction_work_J"):
-        assert left[column] == pytest.approx(right[column], rel=1e-6, abs=1e-6), column
-    right, left = block
-    assert right["displacement_m"][-1] > 2.0
-    for column in right.keys() - {"front_position_m"}:
-        assert left[column] == pytest.approx(right[column], rel=1e-6, abs=1e-6, nan_ok=True), column
-
-
-def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: Program, tmp_path: Path) -> None:
-    case = write_slope_on_profile(tmp_path / "case", 1.0)
-    edit(edit(case, "min = [0.0, 0.0]", "min = [-4100.0, 0.0]"), "\nfile =", "\nextend = true\nfile =")
-    rows = ["0.0,300.0", "200.0,180.0", "200.00000000000003,180.0", "400.0,60.0"]
-    (case.parent / "profile.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
+def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: Program, small_case: Path) -> None:
+    with_profile(small_case, "distance_m,terrain_elevation_m\n0,0\n200,0\n200.00000000000003,0\n400,0\n")
+    words = sets(grid__min="[-4100,-2]", grid__max="[400,10]", terrain__extend="true")
     for command in ("check", "block"):
-        message = thawslide.error(command, case)
+        message = thawslide.error(command, small_case, *words)
         assert "profile.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m " in message
 
 
