@@ -88,9 +88,8 @@ def fault_of(block: Block) -> str:
         return "a toml block needs a mark: file, merged into or not run"
     if block.language == "console" and not block.text.startswith("$ "):
         return "a console block begins with `$ command`"
-    if block.language in {"", "text"} and any(
-        COMMAND.match(line) or PATHS.match(line) for line in block.text.split("\n")
-    ):
+    lines = block.text.split("\n")
+    if block.language in {"", "text"} and any(COMMAND.match(line) or PATHS.match(line) for line in lines):
         return "a block with a command needs the language console"
     if block.language == "console":
         unshown = next((each for each in commands_of(block) if only_dots(each.expected)), None)

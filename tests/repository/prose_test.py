@@ -25,10 +25,13 @@ def lengths_in(page: str, max_words: int = 0) -> list[int]:
     return [sentence.words for sentence in prose.findings(prose.texts_of_page("a.md", page), rules).long]
 
 
+def check(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    script = ROOT / "scripts" / "prose-check"
+    return subprocess.run([script, *words], capture_output=True, text=True, timeout=600, check=False)
+
+
 def test_counts_are_within_their_limits() -> None:
-    checked = subprocess.run(
-        [ROOT / "scripts" / "prose-check", "--limits"], capture_output=True, text=True, timeout=600, check=False
-    )
+    checked = check("--limits")
     assert checked.returncode == 0, checked.stdout + checked.stderr
 
 
@@ -36,11 +39,9 @@ def test_an_unused_justification_and_an_unknown_file_are_refused(tmp_path: Path)
     limits = tmp_path / "limits.toml"
     entry = '[[justified]]\nfile = "README.md"\nrule = "term"\nphrase = "no such phrase"\nreason = "none"\n'
     limits.write_text((ROOT / "scripts" / "prose_limits.toml").read_text() + entry)
-    script = ROOT / "scripts" / "prose-check"
-    unused = subprocess.run([script, "--limits", limits], capture_output=True, text=True, timeout=600, check=False)
+    unused, unknown = check("--limits", limits), check("NONE.md")
     assert unused.returncode == 1
     assert unused.stdout == "README.md: no hit for the justified phrase: no such phrase\n"
-    unknown = subprocess.run([script, "NONE.md"], capture_output=True, text=True, timeout=600, check=False)
     assert unknown.returncode == 2 and "no prose in NONE.md" in unknown.stderr
 
 
@@ -49,9 +50,7 @@ def test_terms_are_found_with_line_and_replacement_outside_code() -> None:
     assert hits_in("The largest speed.") == [(1, "largest speed", "maximum speed")]
     assert hits_in("It ends amid\na run.") == [(1, "amid", "during")]
     assert hits_in("The run goes\non.") == [(1, "goes on", "continue|resume")]
-    page = (
-        "A `card` or ``a ` card`` in\n\n```\nthe card\n```\n\n[text](card.md) https://a.org/card\n\n<!-- a\ncard -->\n"
-    )
+    page = "A `card` or ``a ` card``\n\n```\nthe card\n```\n\n[text](card.md) https://a.org/card\n\n<!-- a\ncard -->\n"
     assert hits_in(page) == []
     assert hits_in(page + "\nA card.\n") == [(12, "card", "GPU")]
     page = "# The card\n\n| card | `card` |\n|---|---|\n| `a|card` | a card |\n\n- one\n- card\n\n> a card\n"
@@ -59,15 +58,15 @@ def test_terms_are_found_with_line_and_replacement_outside_code() -> None:
 
 
 def test_a_free_relative_opens_a_sentence_and_tokens_are_words() -> None:
-    assert [words for _, words, _ in hits_in("It runs. What it notes is valid.")] == ["What it"]
-    assert [words for _, words, _ in hits_in("- Where a body rests.\n")] == ["Where a"]
-    assert hits_in("What is the runout? It shows what it notes.") == []
-    assert hits_in("# What to try\n") == []
-    assert [words for _, words, _ in hits_in("The nodes feel it, where the case gives it.")] == [
-        "where the case gives",
-        "nodes feel",
-    ]
-    assert hits_in("The nodes feeling it, somewhere the case gives it.") == []
+    for text, found in (
+        ("It runs. What it notes is valid.", ["What it"]),
+        ("- Where a body rests.\n", ["Where a"]),
+        ("What is the runout? It shows what it notes.", []),
+        ("# What to try\n", []),
+        ("The nodes feel it, where the case gives it.", ["where the case gives", "nodes feel"]),
+        ("The nodes feeling it, somewhere the case gives it.", []),
+    ):
+        assert [words for _, words, _ in hits_in(text)] == found
 
 
 def test_uncounted_words_joints_and_long_paragraphs_are_reported() -> None:
@@ -99,7 +98,7 @@ def test_messages_are_strings_of_several_words() -> None:
 
 def test_labels_are_strings_that_document_nothing() -> None:
     source = (
-        '"""A card."""\n\n\ndef f():\n    """A card."""\n    return f"{x} of a card" + "card" + "one card"  # a card\n'
+        '"""A card."""\n\n\ndef f():\n    """A card."""\n    return f"{x} of a card" + "card" + "one card"  # card\n'
     )
     texts = prose.texts_of_python("a.py", source, RULES)
     assert [text.chars for text in texts] == [f"{prose.CODE} of a card", "one card"]

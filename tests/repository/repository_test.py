@@ -92,16 +92,10 @@ def test_modules_are_those_of_the_table_without_a_cycle() -> None:
 
 
 def test_modules_include_only_allowed_modules() -> None:
-    wrong = []
-    seen = 0
-    for path in code_files("src"):
-        module = path.relative_to(SOURCE).parts[0]
-        for include in includes_of(path.read_text()):
-            seen += 1
-            if module_of(include) not in ALLOWED[module]:
-                wrong.append(f"{place(path)} includes {include}, but {module} may not include {module_of(include)}")
-    assert seen > 100
-    assert wrong == []
+    used = [(path, include) for path in code_files("src") for include in includes_of(path.read_text())]
+    assert len(used) > 100
+    allowed_in = {path: ALLOWED[path.relative_to(SOURCE).parts[0]] for path, _ in used}
+    assert [f"{place(path)}: {name}" for path, name in used if module_of(name) not in allowed_in[path]] == []
 
 
 def test_folders_of_sim_include_only_allowed_folders() -> None:
@@ -183,23 +177,16 @@ def test_files_are_not_too_long(path: Path) -> None:
 
 
 def test_no_todo_tabs_or_machine_paths() -> None:
-    unfinished = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "X" * 3]) + r")\b")
+    unfinished = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "X" * 3]) + r")\b|\t|\s$")
     machine = re.compile(r"(?<![\w.}~$-])/(work|root|home|Users)/")
-    wrong = []
     files = own_files()
     assert len(files) > 100
+    wrong = []
     for path in files:
-        if path == Path(__file__).resolve():
-            continue
-        for number, line in enumerate(path.read_text().splitlines(), 1):
-            for name, found in [
-                ("unfinished", unfinished.search(line)),
-                ("machine path", machine.search(line)),
-                ("tab", "\t" in line),
-                ("space at the end", line.rstrip() != line),
-            ]:
-                if found and not (path.suffix == ".csv" and name != "machine path"):
-                    wrong.append(f"{place(path)}:{number}: {name}")
+        if path != Path(__file__).resolve():
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                if machine.search(line) or (path.suffix != ".csv" and unfinished.search(line)):
+                    wrong.append(f"{place(path)}:{number}: {line}")
     assert wrong == []
 
 
@@ -221,8 +208,7 @@ def test_document_lines_and_links(path: Path) -> None:
             continue
         assert there.exists(), f"{place(path)} links to {target}"
         if anchor and there.suffix == ".md":
-            titles = re.findall(r"^#+ (.+)$", there.read_text(), re.MULTILINE)
-            assert anchor in {heading_anchor(title) for title in titles}, f"{place(path)} links to {target}"
+            assert anchor in set(map(heading_anchor, titles_of(there))), f"{place(path)} links to {target}"
 
 
 @pytest.mark.parametrize("folder", sorted(path for path in (ROOT / "cases").iterdir() if path.is_dir()), ids=place)
@@ -234,27 +220,28 @@ def test_case_pages_have_the_same_sections_and_a_sketch(folder: Path) -> None:
     assert f"- {place(folder)}/README.md" in (ROOT / "mkdocs.yml").read_text()
 
 
+def titles_of(page: Path) -> list[str]:
+    return re.findall(r"^#+ (.+)$", page.read_text(), re.MULTILINE)
+
+
 def test_code_cites_sections_that_the_theory_has() -> None:
     pages = [ROOT / "docs" / "theory.md", *sorted((ROOT / "docs" / "theory").glob("*.md"))]
     assert len(pages) > 10
-    titles = [title for page in pages for title in re.findall(r"^#+ (.+)$", page.read_text(), re.MULTILINE)]
+    titles = [title for page in pages for title in titles_of(page)]
     numbers = {title.split(" ")[0].rstrip(".") for title in titles}
     names = {title.split(" ", 1)[-1] for title in titles} | set(titles)
-    cited = 0
+    cited, wrong = 0, []
     for path in code_files("src", "tests/cpp"):
         text = re.sub(r"\n\s*//\s*", " ", path.read_text())
-        for name in re.findall(r'docs/theory\.md, "([^"]+)"', text):
-            assert name in names, f"{place(path)} cites the section '{name}' of docs/theory.md"
-            cited += 1
-        for number in re.findall(r"docs/theory\.md,? (?:section )?(\d+(?:\.\d+)*)", text):
-            assert number in numbers, f"{place(path)} cites section {number} of docs/theory.md"
-            cited += 1
-        for page, name in re.findall(r'(docs/theory/[\w-]+\.md)(?:, "([^"]+)")?', text):
-            assert (ROOT / page).is_file(), f"{place(path)} cites {page}"
-            headings = re.findall(r"^#+ (.+)$", (ROOT / page).read_text(), re.MULTILINE)
-            assert not name or name in headings, f"{place(path)} cites the section '{name}' of {page}"
-            cited += 1
-    assert cited > 0
+        named = re.findall(r'docs/theory\.md, "([^"]+)"', text)
+        numbered = re.findall(r"docs/theory\.md,? (?:section )?(\d+(?:\.\d+)*)", text)
+        of_pages = re.findall(r'(docs/theory/[\w-]+\.md)(?:, "([^"]+)")?', text)
+        cited += len(named) + len(numbered) + len(of_pages)
+        wrong += [(place(path), name) for name in (*(set(named) - names), *(set(numbered) - numbers))]
+        for page, name in of_pages:
+            if not (ROOT / page).is_file() or (name and name not in titles_of(ROOT / page)):
+                wrong.append((place(path), f"{page}, {name}"))
+    assert cited > 0 and wrong == []
 
 
 def names_in_backticks(path: Path) -> set[str]:
