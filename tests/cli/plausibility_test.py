@@ -110,12 +110,11 @@ def test_json_contains_the_facts_of_the_text(thawslide: Program, plain_case: Pat
     (body,) = reported["bodies"]
     # 4 m x 3 m on cells of 1 m; 70 % rock and 30 % ice are 2200.1 kg/m3, with little water.
     assert body["name"] == "block" and body["particles"] == reported["particles"] == 48
-    assert body["volume_m3"] == pytest.approx(12.0, rel=1e-12) and body["area_m2"] == pytest.approx(4.0, rel=1e-12)
+    assert (body["volume_m3"], body["area_m2"]) == pytest.approx((12.0, 4.0), rel=1e-12)
     assert body["mass_kg"] == pytest.approx(12.0 * 2200.1, rel=1e-6)
     assert body["mean_thickness_m"] == body["median_thickness_m"] == body["max_thickness_m"] == 3.0
-    assert body["spacing_m"] == 0.5 and body["particles_across"] == 6.0
-    assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["resting_fraction"] == 1.0
-    assert body["coldest_C"] == body["warmest_C"] == -10.0
+    assert body["spacing_m"] == 0.5 and body["particles_across"] == 6.0 and body["resting_fraction"] == 1.0
+    assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["coldest_C"] == body["warmest_C"] == -10.0
     assert reported["cells"] == 240 and reported["steps"] == 200 and reported["step_s"] == 0.001
     assert reported["memory"]["particles_bytes"] == 48 * 631 and reported["memory"]["available_bytes"] > 1e6
     disk = reported["disk"]

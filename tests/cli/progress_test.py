@@ -138,35 +138,26 @@ def test_a_run_ends_when_all_particles_have_left(thawslide: Program, slope: Slop
     assert reported and facts["status"] == "done"
     assert printed.splitlines()[-1] == facts["message"]
     work = re.search(
-        r"^([\d,]+) particles, ([\d,]+) at the end, [\d,]+ steps in .*: (\S+) million particle-steps per "
-        r"second on 1 thread$",
-        printed,
-        re.MULTILINE,
+        r"^([\d,]+) particles, ([\d,]+) at the end, .*: (\S+) million particle-steps", printed, re.MULTILINE
     )
     assert work and int(work[1].replace(",", "")) == facts["particles"] > int(work[2].replace(",", ""))
     assert work[3] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     assert facts["particle_steps_per_second"] * facts["wall_s"] < facts["particles"] * facts["steps"]
     assert columns["time_s"][-1] == pytest.approx(float(reported[1]), rel=1e-5)
-    assert columns["time_s"][-1] < 60.0
     assert columns["mass_kg"][-1] == pytest.approx(float(reported[2].replace(",", "")), rel=6e-3)
     np.testing.assert_allclose(columns["mass_kg"] + columns["left_mass_kg"], columns["mass_kg"][0], rtol=1e-12)
     # Final maps are empty; maximum values are kept.
     assert facts["covered_volume_m3"] == facts["covered_area_m2"] == 0.0
     assert facts["affected_area_m2"] > WIDTH * DEPTH
     assert facts["at_rest"] is None and facts["left_mass_kg"] == pytest.approx(columns["left_mass_kg"][-1])
-    left = [line for line in printed.splitlines() if line.startswith("warning: ") and "have left" in line]
-    assert len(left) == 1 and left[0].removeprefix("warning: ") == facts["warnings"][0]
-    assert re.fullmatch(
-        rf"{facts['removed_particles']['left']} particles have left the domain or the known terrain and were removed: "
-        r"\S+ kg, \d+\.?\d* % of the mass\. The results do not include them\. Use a larger domain or DEM\.",
-        facts["warnings"][0],
-    )
-    with (
-        rasterio.open(run / "maps" / "final_thickness.tif") as final,
-        rasterio.open(run / "maps" / "max_thickness.tif") as largest,
-    ):
-        assert final.read(1, masked=True).max() == 0.0
-        assert largest.read(1, masked=True).max() > 20.0
+    (left,) = [line for line in printed.splitlines() if line.startswith("warning: ") and "have left" in line]
+    assert left == f"warning: {facts['warnings'][0]}"
+    number = facts["removed_particles"]["left"]
+    start = f"warning: {number} particles have left the domain or the known terrain and were removed: "
+    assert left.startswith(start) and left.endswith(" Use a larger domain or DEM.")
+    for name, low, high in (("final", 0.0, 0.0), ("max", 20.0, np.inf)):
+        with rasterio.open(run / "maps" / f"{name}_thickness.tif") as file:
+            assert low <= file.read(1, masked=True).max() <= high
 
 
 FULL = Path("/dev/full")

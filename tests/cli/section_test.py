@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Program, Ran, columns_of, history, run_facts, sets
+from conftest import Program, Ran, columns_of, history, sets
 from terrain_files import place, write_dem, write_line, write_release
 
 SLOPE = 0.5  # fall per metre of x
@@ -67,15 +67,10 @@ def test_section_of_a_plane_runs_unchanged(ran: Ran, thawslide: Program, maps: M
     assert np.trapezoid(thickness, distance) == pytest.approx(2000.0, rel=1e-6)
 
     text = (folder / "case.toml").read_text()
-    assert "has no side walls and does not spread" in text
     case = tomllib.loads(text)
-    assert 2 * 18.7 / case["grid"]["cell"] >= 4.0
+    assert "has no side walls and does not spread" in text and 2 * 18.7 / case["grid"]["cell"] >= 4.0
     assert case["body"]["slide"]["shape"] == "surface" and case["terrain"]["type"] == "profile"
-
-    thawslide.ok("check", folder)
-    run = ran(*sets(time__end=2), case=folder)
-    assert run_facts(run)["status"] == "done"
-    columns = history(run)
+    columns = history(ran(*sets(time__end=2), case=folder))
     assert columns["mean_velocity_m_s"][-1] > 0.5
     assert columns["front_position_m"][-1] > columns["front_position_m"][0] + 0.5
 
@@ -84,9 +79,8 @@ def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp
     thawslide.ok(*maps.words_with_release(tmp_path / "flat"))
     thawslide.ok("new", tmp_path / "space", "--dem", maps.dem, "--release", maps.release)
     flat, space = (tomllib.loads((tmp_path / name / "case.toml").read_text()) for name in ("flat", "space"))
-    for table in ("material", "basal"):
+    for table in ("material", "basal", "band"):
         assert flat[table] == space[table]
-    assert flat["band"] == space["band"]
     for key in ("temperature", "porosity", "particles_per_axis", "material"):
         assert flat["body"]["slide"][key] == space["body"]["slide"][key]
 
