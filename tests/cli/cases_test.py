@@ -9,6 +9,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -89,16 +90,17 @@ def needs(*names: str) -> None:
         pytest.skip(f"the case needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
 
 
-def test_each_run_of_the_frank_slide_is_a_valid_case(thawslide: Program, binary: Path, tmp_path: Path) -> None:
-    needs("frank")
-    for job in frank.jobs(Place(binary, tmp_path, tmp_path, parts=("*",))):
-        assert "36,000,000 m3" in thawslide.ok("check", job.case, *options_of(job))
-
-
-def test_each_run_on_refined_cells_is_a_valid_case(thawslide: Program, binary: Path, tmp_path: Path) -> None:
-    needs("alr/alr.tif", "alr/release.shp")
-    for job in refinement.jobs(Place(binary, tmp_path, tmp_path)):
-        thawslide.ok("check", job.case, *options_of(job))
+@pytest.mark.parametrize(
+    ("study", "data", "volume"),
+    [(frank, "frank", "36,000,000 m3"), (refinement, "alr", "particles")],
+    ids=["frank", "cells"],
+)
+def test_each_run_of_a_comparison_is_a_valid_case(
+    thawslide: Program, binary: Path, tmp_path: Path, study: ModuleType, data: str, volume: str
+) -> None:
+    needs(data)
+    for job in study.jobs(Place(binary, tmp_path, tmp_path, parts=("*",))):
+        assert volume in thawslide.ok("check", job.case, *options_of(job))
 
 
 def test_each_case_of_the_blind_forecast_is_valid_and_releases_its_volume(thawslide: Program, tmp_path: Path) -> None:

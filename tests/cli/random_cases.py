@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import rasterio
-from terrain_files import CRS_NAME, EAST, NORTH, place, toml, write_geojson
+from terrain_files import CRS_NAME, EAST, NORTH, place, toml, write_line, write_release
 
 Generator = np.random.Generator
 Corners = list[tuple[float, float]]
@@ -62,10 +62,6 @@ def _physics(random: Generator) -> str:
 
 def _chance(random: Generator, share: float) -> bool:
     return bool(random.random() < share)
-
-
-def _leaving(random: Generator) -> str:
-    return str(random.choice(["stop", "remove"]))
 
 
 # Elevations [m] of a slope from its highest point downward, with many variations.
@@ -136,10 +132,6 @@ def _degenerate(random: Generator, corners: Corners) -> Corners:
     return [*corners[:at], corners[at], *corners[at:]] if kind == 1 else [*corners, *corners[-2::-1]]
 
 
-def _write_line(file: Path, corners: Corners) -> None:
-    write_geojson(file, "LineString", [place(*corner) for corner in corners])
-
-
 def _in_space(random: Generator, case: RandomCase) -> str:
     columns, rows = (int(n) for n in random.integers(12, 50, 2))
     points_apart = float(random.choice([1.0, 5.0, 10.0, random.uniform(1.0, 20.0)]))
@@ -155,11 +147,11 @@ def _in_space(random: Generator, case: RandomCase) -> str:
     radius = random.uniform(0.1, 0.3) * min(size)
     middle = 0.0 if _chance(random, 0.05) else 1.1 * radius + 2.5 * points_apart  # from the edge of the domain
     centre = tuple(float(random.uniform(middle, side - middle)) if side > 2.0 * middle else side / 2.0 for side in size)
-    _write_line(case.folder / "line.geojson", _line(random, size, centre, points_apart))
+    write_line(case.folder / "line.geojson", _line(random, size, centre, points_apart))
     cell = radius / random.uniform(3.0, 9.0)
     thickness = random.uniform(0.9, 4.0) * cell
     ring = _polygon(random, centre, radius, points_apart)
-    write_geojson(case.folder / "release.geojson", "Polygon", [[place(*c) for c in [*ring, ring[0]]]])
+    write_release(case.folder / "release.geojson", ring)
     body = f'release = "release.geojson" | thickness = {thickness:.6g}'
     if _chance(random, 0.3):
         x, y = np.meshgrid(*middles)
@@ -175,7 +167,8 @@ def _in_space(random: Generator, case: RandomCase) -> str:
     upper = [low + n * cell for low, n in zip(lower, cells, strict=True)]
     numbers = [", ".join(f"{value:.17g}" for value in corner) for corner in (lower, upper)]
     text = toml(f"""
-[grid] cell = {cell:.17g} | min = [{numbers[0]}] | max = [{numbers[1]}] | leaving = "{_leaving(random)}"
+[grid] cell = {cell:.17g} | min = [{numbers[0]}] | max = [{numbers[1]}]
+  leaving = "{random.choice(["stop", "remove"])}"
 [terrain] type = "dem" | file = "dem.tif"
 [body.slide] material = "rock" | shape = "release" | {body} | placement = "{random.choice(["on_top", "cut"])}"
   taper = {random.choice([0.0, random.uniform(0.0, 0.5) * radius]):.6g} | temperature = -1.0
@@ -188,7 +181,7 @@ def _in_space(random: Generator, case: RandomCase) -> str:
         corner = place(*_place_near(random, size, 0.1))
         name = f"across{number}.geojson"
         section = [_place_near(random, size, 0.1) for _ in range(random.integers(2, 4))]
-        _write_line(case.folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
+        write_line(case.folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
         value = f'line = "{name}"' if _chance(random, 0.6) else f"point = [{corner[0]:.17g}, {corner[1]:.17g}]"
         text += f"[probe.p{number}]\n{value}\n"
     folder = case.folder
@@ -232,7 +225,7 @@ def _in_plane(random: Generator, case: RandomCase) -> str:
     )
     return toml(f"""
 [grid] cell = {cell:.17g} | min = [0.0, {lowest:.17g}] | max = [{cells * cell:.17g}, {lowest + up * cell:.17g}]
-  leaving = "{_leaving(random)}"
+  leaving = "{random.choice(["stop", "remove"])}"
 [terrain] {ground}
 [body.slide] material = "rock" | {body} | temperature = -1.0
   velocity = [{random.choice([0.0, random.uniform(-10.0, 10.0)]):.4g}, 0.0]

@@ -201,17 +201,6 @@ def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) ->
     assert late == pytest.approx(np.zeros(len(late)), abs=1e-9), "each snapshot has a row of its time"
 
 
-@pytest.mark.parametrize("percent", [10, 40])
-def test_a_stopped_run_with_adaptive_steps_ends_bitwise_identical(
-    thawslide: Program, interrupted: conftest.Interrupted, whole: Path, run: Path, percent: int
-) -> None:
-    assert interrupted(LAMPLUGH, run, ADAPTIVE, signal.SIGTERM, percent) == 4
-    assert 0.0 < run_facts(run)["simulated_time_s"] < ADAPTIVE_END
-    thawslide.ok("resume", run, "--threads", 1)
-    assert_identical(whole, run)
-    assert run_facts(run)["steps"] == run_facts(whole)["steps"]
-
-
 RESTS = sets(
     time__end=2, time__history_interval=0.05, time__output_interval=0.5, body__block__velocity="[3,0]",
     time__stop_at_rest=0.5, time__rest_time=0.0515,

@@ -110,11 +110,6 @@ def test_percentiles_and_quantiles_are_those_of_scipy_and_numpy(size: int) -> No
         assert quantiles(values, mass) == pytest.approx(list(expected))
 
 
-def test_the_crps_of_one_member_is_the_absolute_difference() -> None:
-    for member, observed in ((3.0, 8.0), (8.0, 3.0), (5.0, 5.0)):
-        assert crps(np.array([member]), np.array([0.3]), observed) == abs(member - observed)
-
-
 def test_the_order_of_members_and_the_unit_of_weights_do_not_matter() -> None:
     random = np.random.default_rng(1)
     members, weights = random.normal(size=40), random.random(40)
