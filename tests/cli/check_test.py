@@ -130,10 +130,8 @@ CORE = min(os.sched_getaffinity(0))
 @contextmanager
 def busy(processes: int) -> Iterator[None]:
     """Occupy the core with processes that compute without an end."""
-    loops = [
-        subprocess.Popen(["taskset", "-c", str(CORE), sys.executable, "-c", "while True: pass"])
-        for _ in range(processes)
-    ]
+    command = ["taskset", "-c", str(CORE), sys.executable, "-c", "while True: pass"]
+    loops = [subprocess.Popen(command) for _ in range(processes)]
     try:
         yield
     finally:
