@@ -67,12 +67,6 @@ def test_check_states_the_volume_of_polygons_in_any_system(thawslide: Program, c
     assert volume_of(thawslide, case) == pytest.approx(of_triangle, rel=1e-5)
 
 
-def test_check_states_no_bed_if_there_is_none(thawslide: Program, slope: Slope) -> None:
-    slope.ok()
-    assert "  bed  " not in thawslide.ok("check", slope.case)
-    assert thawslide.json("check", slope.case)["bed_volume_m3"] is None
-
-
 def test_invalid_polygons_are_refused(thawslide: Program, case: Path) -> None:
     """Messages are compared in tests/cpp/gis; a missing attribute and an overlap are those of any polygons."""
     file = case / "bed.geojson"

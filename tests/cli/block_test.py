@@ -35,14 +35,14 @@ def write_case(folder: Path, height: Height) -> Path:
 
 
 @pytest.mark.parametrize(("opening", "note"), [(160.0, False), (120.0, True)])
-def test_block_in_a_v_channel(thawslide: Program, tmp_path: Path, opening: float, note: bool) -> None:
+def test_friction_on_the_sides_of_a_valley_is_noted(
+    thawslide: Program, tmp_path: Path, opening: float, note: bool
+) -> None:
     slope, half = np.radians(SLOPE), np.radians(opening / 2.0)
     side = 1.0 / np.tan(half) / np.cos(slope)  # across, in the map
     write_case(tmp_path, lambda x, y: 1000.0 - np.tan(slope) * x + side * np.abs(y - MIDDLE))
     printed = thawslide.ok("block", tmp_path, "--output", tmp_path / "block.csv")
-    columns = columns_of(tmp_path / "block.csv")
-    factor = 1.0 / np.sin(half)
-    assert columns["valley_factor"] == pytest.approx(factor, rel=1e-6)
+    assert columns_of(tmp_path / "block.csv")["valley_factor"] == pytest.approx(1.0 / np.sin(half), rel=1e-6)
     assert ("the path follows a valley, whose sides raise friction by a factor of" in printed) == note
 
 

@@ -44,22 +44,10 @@ def test_describe_names_each_key_and_has_a_markdown_page_and_a_schema(thawslide:
     printed = thawslide.ok("describe", "--md")
     assert printed.startswith("# The case file\n")
     assert "| `gravity` | m/s2 |" in printed
+    assert {"[case]", "[material.NAME]"} <= {table["table"] for table in json.loads(thawslide.ok("describe", "--json"))}
     schema = json.loads(thawslide.ok("describe", "--schema"))
     assert schema["$schema"].startswith("https://json-schema.org/")
     assert schema["properties"]["time"]["properties"]["end"]["type"] == "number"
-
-
-def test_describe_json_contains_every_key_of_lamplugh(thawslide: Program) -> None:
-    printed = thawslide.ok("describe", "--json")
-    known = {table["table"]: {key["key"]: key for key in table["keys"]} for table in json.loads(printed)}
-    assert known["[case]"]["gravity"]["unit"] == "m/s2"
-    assert known["[case]"]["gravity"]["default"] == "9.81"
-    case = tomllib.loads((LAMPLUGH / "case.toml").read_text())
-    for table, entries in case.items():
-        title, keys = f"[{table}]", entries
-        if table in ("material", "body"):
-            title, keys = f"[{table}.NAME]", next(iter(entries.values()))
-        assert set(keys) <= set(known[title]), title
 
 
 def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
@@ -212,11 +200,6 @@ def test_auto_and_cpu_run_and_resume(ran: Ran, thawslide: Program, device: str) 
     run = ran("--device", device)
     assert device == "auto" or run_facts(run)["parts"][0]["device"] == ""
     thawslide.ok("resume", run, "--device", device)
-
-
-def test_another_device_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    message = thawslide.error("run", small_case, "--output", tmp_path / "run", "--device", "tpu")
-    assert "--device: tpu not in {cpu,gpu,auto}" in message
 
 
 X, Y = WEST + 0.3 * COLUMNS * CELL, SOUTH + 0.5 * ROWS * CELL

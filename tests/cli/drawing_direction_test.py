@@ -1,4 +1,4 @@
-"""Results do not depend on the direction in which paths, cross sections, outlines and rasters were drawn or stored."""
+"""Results depend neither on the direction in which lines and rasters were drawn or stored nor on that of the slope."""
 
 from pathlib import Path
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import rasterio
 from conftest import Program, Ran, columns_of, history, run_facts, sets, with_profile
-from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line
+from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line, write_release
 
 RING = [(105.0, 105.0), (205.0, 105.0), (205.0, 195.0), (105.0, 195.0)]
 PATH = [(35.0, 150.0), (400.0, 150.0), (765.0, 155.0)]
@@ -88,6 +88,39 @@ def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: 
     assert 150.0 < front[0] < 190.0 and front[-1] > front[0] + 1.0
     assert plain["block"]["velocity_m_s"].max() > 10.0 and plain["block"]["displacement_m"][-1] > 100.0
     assert (plain["block"]["driving_traction_Pa"][:1] > 0.0).all()
+
+
+def test_a_slide_on_turned_ground_moves_alike(ran: Ran, tmp_path: Path) -> None:
+    """The turn by 90 degrees maps grid, particles and triangles onto themselves: only round-off differs."""
+    side, ends = 300.0, {}
+    for name in ("plain", "turned"):
+
+        def turned(x: float, y: float, is_turned: bool = name == "turned") -> tuple[float, float]:
+            return (side - y, x) if is_turned else (x, y)
+
+        def height(x: np.ndarray, y: np.ndarray, is_turned: bool = name == "turned") -> np.ndarray:
+            x, y = (y, side - x) if is_turned else (x, y)
+            return 1000.0 - 0.7 * x + 0.001 * (y - 140.0) ** 2 + 2.0 * np.sin(0.1 * x + 0.05 * y)
+
+        folder = tmp_path / name
+        folder.mkdir()
+        (folder / "case.toml").write_text(CASE.replace(f"{EAST + 775.0}", f"{EAST + 285.0}"))
+        write_dem(folder / "dem.tif", height, columns=30, rows=30, cell=CELL)
+        write_release(folder / "release.geojson", [turned(*corner) for corner in RING])
+        for file, line in (("path", [(35.0, 150.0), (265.0, 155.0)]), ("across", [(230.0, 40.0), (235.0, 260.0)])):
+            write_line(folder / f"{file}.geojson", [turned(*corner) for corner in line])
+        yields = sets(
+            material__rock__law="mohr_coulomb", material__rock__friction_angle=30, material__rock__cohesion=1e4
+        )
+        run = ran("--threads", 1, *yields, case=folder, name=f"run-{name}")
+        ends[name] = {column: values[-1] for column, values in history(run).items()}
+    plain, after = ends["plain"], ends["turned"]
+    assert plain["mean_displacement_m"] > 1.0
+    for column in ("front_position_m", "runout_m", "mean_displacement_m", "kinetic_J", "friction_heat_J", "plastic_J"):
+        assert after[column] == pytest.approx(plain[column], rel=1e-9), column
+    weight = plain["mass_kg"] * 9.81
+    assert after["basal_force_y_N"] == pytest.approx(plain["basal_force_x_N"], abs=1e-9 * weight)
+    assert after["basal_force_x_N"] == pytest.approx(-plain["basal_force_y_N"], abs=1e-9 * weight)
 
 
 @pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])

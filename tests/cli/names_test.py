@@ -7,7 +7,7 @@ from pathlib import Path
 
 import odd_files as odd
 import pytest
-from conftest import PROFILE, Program, Ran, Slope, sets
+from conftest import Program, Ran, Slope, sets
 from terrain_files import SOUTH, WEST, write_dem, write_line, write_rectangle, write_release
 
 NAMES = ['quo"te', "back\\slash", 'x"\n[time]\nend = 5\n#', "it's $(id) `id`", "tab\there"]
@@ -56,16 +56,6 @@ def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(tmp_path:
     assert outcome.returncode == 2
     assert b"is not UTF-8, as required for names in a case file" in outcome.stderr
     assert not folder.exists()
-
-
-def test_a_name_of_maximum_length_is_checked_and_run(thawslide: Program, small_case: Path) -> None:
-    """The temporary file for its copy has no longer name."""
-    profile = small_case / ("a" * 251 + ".csv")
-    profile.write_text(PROFILE)
-    words = sets(terrain__type="profile", terrain__file=profile, time__end=0.01)
-    for command in ("check", "run"):
-        thawslide.ok(command, small_case, *words, folder=small_case)
-    assert (small_case / "runs" / "small" / "inputs" / profile.name).read_text() == PROFILE
 
 
 @pytest.mark.parametrize(("written", "stored"), [("NFC", "NFD"), ("NFD", "NFC")])

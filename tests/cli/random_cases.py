@@ -1,17 +1,12 @@
 """Random valid cases: any terrain, release, path, probes and domain. The program may refuse them with a message.
 
-`python tests/cli/random_cases.py PROGRAM SECONDS [FIRST_SEED]` tests random cases. It keeps the
-folders of those that end in an internal error or by a signal.
+RANDOM_CASES=FIRST:LAST in the environment selects the seeds; pytest keeps the folders of the last three runs.
 """
 
 import os
 import resource
-import shutil
 import signal
 import subprocess
-import sys
-import tempfile
-import time
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -272,29 +267,3 @@ def attempt(program: Path, case: RandomCase) -> TestedCase:
         if done.returncode not in EXPECTED_CODES or "internal error" in done.stderr:
             tested.faults.append(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-2000:]}")
     return tested
-
-
-def main() -> int:
-    """Test cases for some time, and print the results."""
-    program, seconds = Path(sys.argv[1]), float(sys.argv[2])
-    seed = int(sys.argv[3]) if len(sys.argv) > 3 else 0
-    codes: Counter[tuple[str, int]] = Counter()
-    kept, end, first = 0, time.monotonic() + seconds, seed
-    home = Path(tempfile.mkdtemp(prefix="thawslide-random-"))
-    while time.monotonic() < end:
-        case = draw(seed, home / f"seed-{seed}")
-        tested = attempt(program, case)
-        codes += tested.codes
-        for fault in tested.faults:
-            print(f"seed {seed}: {fault}", flush=True)
-        kept += bool(tested.faults)
-        if not tested.faults:
-            shutil.rmtree(case.folder)
-        seed += 1
-    counts = ", ".join(f"{name} {code}: {count}" for (name, code), count in sorted(codes.items()))
-    print(f"{seed - first} cases from seed {first} on, {kept} with faults in {home}; exit codes: {counts}")
-    return 1 if kept else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

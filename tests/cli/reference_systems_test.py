@@ -52,16 +52,6 @@ def test_projection(thawslide: Program, tmp_path: Path, crs: str, east: float, n
     assert (note in outcome.stdout) == (expected == NOTED), outcome.stdout
 
 
-def test_option_of_the_system_is_asked_too(thawslide: Program, tmp_path: Path) -> None:
-    dem = placed(tmp_path / "dem.tif", "EPSG:3395", 15.0, 47.0)
-    with rasterio.open(dem) as file:
-        bare = odd.raster(tmp_path / "bare.tif", odd.heights(), crs=None, place=file.transform)
-    line = odd.geojson(tmp_path / "line.geojson", "LineString", [(0.0, 0.0), (1.0, 0.0)], "EPSG:3395")
-    words = ["section", tmp_path / "section", "--dem", bare, "--line", line, "--crs", "EPSG:3395"]
-    message = thawslide.error(*words)
-    assert "1.46 times those on the ground" in message and "gdalwarp -s_srs EPSG:3395 -t_srs EPSG:32633" in message
-
-
 @pytest.fixture
 def case(thawslide: Program, tmp_path: Path) -> Path:
     """Return a case whose DEM has heights above the geoid of EGM96; `new` keeps this in its copy."""

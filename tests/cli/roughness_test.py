@@ -12,10 +12,6 @@ from terrain_files import write_dem, write_line, write_release
 NOISE = 1.0  # m rms, a tenth of the points' distance of 10 m
 WIDTH = 7.0  # m, of the filter for it
 RELEASE = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
-KEYS = [
-    "noise_m", "noise_cells", "spacing_m", "bump_length_m", "bump_slope", "filter_m", "remaining_slope",
-    "apparent_friction", "narrow_valley_m",
-]  # fmt: skip
 
 
 @pytest.fixture
@@ -65,7 +61,6 @@ def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, r
     )
     assert f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.99 m rms" in printed
     facts = thawslide.json("check", rough_case)["roughness"]
-    assert list(facts) == KEYS
     assert facts["noise_m"] == pytest.approx(NOISE, rel=0.2)
     assert facts["noise_cells"] == pytest.approx(facts["noise_m"] / 10.0)
     assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (10.0, WIDTH, 40 * WIDTH)

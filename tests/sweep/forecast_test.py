@@ -34,13 +34,8 @@ basal = { friction = "constant", friction_angle = 20.0 }
 heat = { enabled = false }
 pressure = { enabled = false }
 maps = { cell = 40.0 }
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 1.0e7
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 1.0e3
-gaps_close_first = true
+material.rock = { law = "mohr_coulomb", youngs_modulus = 1.0e7, poisson_ratio = 0.2, friction_angle = 35.0, \
+cohesion = 1.0e3, gaps_close_first = true }
 [body.slide]
 material = "rock"
 shape = "release"
