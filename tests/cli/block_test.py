@@ -35,9 +35,7 @@ def write_case(folder: Path, height: Height) -> Path:
 
 
 @pytest.mark.parametrize(("opening", "note"), [(160.0, False), (120.0, True)])
-def test_friction_on_the_sides_of_a_valley_is_noted(
-    thawslide: Program, tmp_path: Path, opening: float, note: bool
-) -> None:
+def test_friction_of_the_sides_is_noted(thawslide: Program, tmp_path: Path, opening: float, note: bool) -> None:
     slope, half = np.radians(SLOPE), np.radians(opening / 2.0)
     side = 1.0 / np.tan(half) / np.cos(slope)  # across, in the map
     write_case(tmp_path, lambda x, y: 1000.0 - np.tan(slope) * x + side * np.abs(y - MIDDLE))

@@ -58,9 +58,7 @@ class Program:
     def __init__(self, binary: Path, environment: dict[str, str]) -> None:
         self.binary, self.environment = binary, environment
 
-    def __call__(
-        self, *words: object, environment: dict[str, str] | None = None, folder: Path | None = None
-    ) -> Outcome:
+    def __call__(self, *words: object, environment: Any = None, folder: Path | None = None) -> Outcome:
         """Run the program; return its outcome."""
         return self.finish([self.binary, *words], env=environment or self.environment, cwd=folder)
 

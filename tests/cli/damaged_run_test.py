@@ -41,14 +41,15 @@ def hundredths(run: Path) -> list[int]:
     return [round(100 * time) for time in history(run)["time_s"]]
 
 
+UPTO = "up to t = 0.15 s, which are missing or damaged"
 # Changes of the rows of a history, the first of which is its header; the rows left; the warning.
 DAMAGE: dict[str, tuple[Callable[[list[str]], list[str]], list[int], str]] = {
-    "truncated": (lambda rows: rows[:6], [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}; {kept}"),
+    "truncated": (lambda rows: rows[:6], [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}"),
     "garbled": (
         lambda rows: [*rows[:7], "0.0x" + rows[7], *rows[8:]], [*range(6), *range(7, 21)],
-        "lacks 1 of the 16 rows {upto}; {kept}",
+        "lacks 1 of the 16 rows {upto}",
     ),
-    "removed": (lambda rows: rows[:7] + rows[9:], [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}; {kept}"),
+    "removed": (lambda rows: rows[:7] + rows[9:], [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}"),
     "header": (
         lambda rows: ["\0" * 20 + "\n", *rows[1:]], list(range(21)),
         "is not as the run wrote it; its rows are complete and are kept",
@@ -62,9 +63,7 @@ def test_lost_rows_are_reported(thawslide: Program, uninterrupted: Path, killed:
     file, kept = killed / "history.csv", killed / "history.damaged.csv"
     file.write_text("".join(damage(file.read_text().splitlines(keepends=True))))
     found = file.read_bytes()
-    words = reported.format(
-        upto="up to t = 0.15 s, which are missing or damaged", kept="what there was is kept as history.damaged.csv"
-    )
+    words = reported.format(upto=f"{UPTO}; what there was is kept as history.damaged.csv")
     assert resumed(thawslide, killed) == [f"history.csv {words}"]
     assert hundredths(killed) == left
     assert kept.exists() == ("kept as" in words) and (not kept.exists() or kept.read_bytes() == found)

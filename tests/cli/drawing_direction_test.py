@@ -109,10 +109,10 @@ def test_a_slide_on_turned_ground_moves_alike(ran: Ran, tmp_path: Path) -> None:
         write_release(folder / "release.geojson", [turned(*corner) for corner in RING])
         for file, line in (("path", [(35.0, 150.0), (265.0, 155.0)]), ("across", [(230.0, 40.0), (235.0, 260.0)])):
             write_line(folder / f"{file}.geojson", [turned(*corner) for corner in line])
-        yields = sets(
+        words = sets(
             material__rock__law="mohr_coulomb", material__rock__friction_angle=30, material__rock__cohesion=1e4
         )
-        run = ran("--threads", 1, *yields, case=folder, name=f"run-{name}")
+        run = ran("--threads", 1, *words, case=folder, name=f"run-{name}")
         ends[name] = {column: values[-1] for column, values in history(run).items()}
     plain, after = ends["plain"], ends["turned"]
     assert plain["mean_displacement_m"] > 1.0
@@ -163,9 +163,8 @@ def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: 
 
 def test_a_path_next_to_the_release_measures_the_front_only(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
     through, side = (write_case(tmp_path / f"{y:g}", path=[(35.0, y), (765.0, y)]) for y in (150.0, 270.0))
-    ends = [
-        history(ran("--threads", 1, *sets(**COULOMB), case=case, name=f"run-{case.name}")) for case in (through, side)
-    ]
+    words = ["--threads", 1, *sets(**COULOMB)]
+    ends = [history(ran(*words, case=case, name=f"run-{case.name}")) for case in (through, side)]
     for name in ("front_position_m", "runout_m"):
         assert ends[1][name] == pytest.approx(ends[0][name], abs=1e-6) and ends[0][name][-1] > ends[0][name][0] + 3.0
     message = thawslide.error("block", side)

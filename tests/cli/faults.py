@@ -20,6 +20,7 @@ from conftest import LAMPLUGH, datasets, mark_killed, run_facts, sets
 ROOT = Path(__file__).resolve().parents[2]
 FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
 Outcome = subprocess.CompletedProcess[str]
+Digest = dict[str, str]
 LEFT_OUT = ("run.json", "run.lock")  # files about processes, not about the slide
 LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
 NOT_BEGUN = "is not a run folder"
@@ -150,9 +151,7 @@ def after_resuming(
     return Trial(subject.name, disturbance, outcome.returncode, reported[0], not changed, remarks + changed)
 
 
-def killed(
-    program: Path, subject: Subject, run: Path, expected: dict[str, str], span: float, chance: random.Random
-) -> Trial:
+def killed(program: Path, subject: Subject, run: Path, expected: Digest, span: float, chance: random.Random) -> Trial:
     """Kill a run at a random time within `span` seconds, resume it and compare; repeat if it ended before."""
     quiet = subprocess.DEVNULL
     code = 0
@@ -185,9 +184,7 @@ def calls_that_write(program: Path, subject: Subject, run: Path, count: Path) ->
     return int(count.read_text())
 
 
-def failing(
-    program: Path, subject: Subject, run: Path, expected: dict[str, str], at: int, kind: str, reason: str
-) -> Trial:
+def failing(program: Path, subject: Subject, run: Path, expected: Digest, at: int, kind: str, reason: str) -> Trial:
     """Let the writing call number `at` fail, resume the run without failures and compare."""
     environment = environment_of_fault(run, at, kind, reason)
     outcome = finish(command_of(program, subject, run), env=environment)
@@ -225,7 +222,7 @@ def mounted(disk: Path, size: int) -> Iterator[bool]:
 
 
 def on_small_disk(
-    program: Path, subject: Subject, disk: Path, expected: dict[str, str], sizes: tuple[int, int]
+    program: Path, subject: Subject, disk: Path, expected: Digest, sizes: tuple[int, int]
 ) -> Trial | None:
     """Run on a disk of sizes[0] kB, resume with sizes[1] and compare; None if no disk can be mounted."""
     with mounted(disk, sizes[0]) as is_mounted:

@@ -11,7 +11,7 @@ from terrain_files import SOUTH, WEST
 NO_FILE = "a regular file is needed. Replace it by the file itself, or remove it.\n"
 
 
-def test_a_3d_run_changes_no_foreign_files(
+def test_a_3d_run_keeps_other_files(
     ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope
 ) -> None:
     """A link in place of probes is replaced; a replaced run is removed with all its maps, and no others."""

@@ -115,9 +115,8 @@ def test_bodies_may_adjoin_but_not_overlap(ran: Ran, thawslide: Program, slope: 
     message = thawslide.error("check", slope.case)
     assert ": body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 about 412315, 5160300; " in message
     write_rectangle(slope.case / "toe.geojson", WEST + 320.0, SOUTH + 250.0)
-    assert release_volume(ran("--set", "time.end=0.01", case=slope.case)) == pytest.approx(
-        WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9
-    )
+    run = ran("--set", "time.end=0.01", case=slope.case)
+    assert release_volume(run) == pytest.approx(WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9)
 
 
 def test_an_existing_folder_is_refused(slope: Slope) -> None:

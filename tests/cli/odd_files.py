@@ -249,9 +249,8 @@ def geojson(file: Path, kind: str, coordinates: Any, crs: str | None = CRS) -> P
     content: dict[str, Any] = {"type": "FeatureCollection"}
     if crs:
         content["crs"] = {"type": "name", "properties": {"name": crs}}
-    content["features"] = [
-        {"type": "Feature", "properties": {}, "geometry": {"type": kind, "coordinates": coordinates}}
-    ]
+    geometry = {"type": kind, "coordinates": coordinates}
+    content["features"] = [{"type": "Feature", "properties": {}, "geometry": geometry}]
     file.write_text(json.dumps(content))
     return file
 
@@ -309,6 +308,7 @@ _ANTICLOCKWISE = [ring(SQUARE, clockwise=False), ring(HOLE, clockwise=False)]
 _REVERSED = [ring(SQUARE, clockwise=False), ring(HOLE)]
 _ISLAND = ring((190.0, 290.0, 210.0, 310.0))
 _CROSSING = [ring(SQUARE)[0], ring(SQUARE)[2], ring(SQUARE)[1], ring(SQUARE)[3], ring(SQUARE)[0]]
+_MERCATOR = reprojected(ring(SQUARE), "EPSG:3857")
 _FAR = ring((500.0, 200.0, 700.0, 400.0))
 
 # Files of polygons, by name with suffix.
@@ -341,9 +341,7 @@ POLYGONS: dict[str, tuple[Callable[[Path], Path], Expected]] = {
     "hole.kml": (lambda file: kml(file, _ALIKE), HOLED),
     "open.gpkg": (open_elsewhere, FULL),
     "degrees.geojson": (lambda file: geojson(file, "Polygon", [reprojected(ring(SQUARE), "EPSG:4326")], None), FULL),
-    "projected.geojson": (
-        lambda file: geojson(file, "Polygon", [reprojected(ring(SQUARE), "EPSG:3857")], "EPSG:3857"), FULL,
-    ),
+    "projected.geojson": (lambda file: geojson(file, "Polygon", [_MERCATOR], "EPSG:3857"), FULL),
     "line.geojson": (lambda file: geojson(file, "LineString", ring(SQUARE)), "has no polygons"),
     "empty-part.geojson": (lambda file: geojson(file, "MultiPolygon", [[], [ring(SQUARE)]]), FULL),
     "empty-hole.geojson": (lambda file: geojson(file, "Polygon", [ring(SQUARE), []]), FULL),
@@ -366,9 +364,7 @@ LINES: dict[str, tuple[Callable[[Path], Path], Expected]] = {
     "with-m.shp": (lambda file: shapefile(file, [[_LINE]], kind=23), LENGTH),
     "deleted.shp": (lambda file: shapefile(file, [[_LINE], [_FAR]], kind=3, deleted=(1,)), LENGTH),
     "degrees.geojson": (lambda file: geojson(file, "LineString", reprojected(_LINE, "EPSG:4326"), None), LENGTH),
-    "projected.geojson": (
-        lambda file: geojson(file, "LineString", reprojected(_LINE, "EPSG:3857"), "EPSG:3857"), LENGTH,
-    ),
+    "web.geojson": (lambda file: geojson(file, "LineString", reprojected(_LINE, "EPSG:3857"), "EPSG:3857"), LENGTH),
     "two.geojson": (lambda file: geojson(file, "MultiLineString", [_LINE, _LINE[::-1]]), "has 2 lines"),
     "polygon.geojson": (lambda file: geojson(file, "Polygon", [ring(SQUARE)]), "has no lines"),
     "empty.geojson": (lambda file: geojson(file, "LineString", []), "has no geometry"),

@@ -11,8 +11,6 @@ FINE = sets(grid__cell=0.5, time__step=0.0005)
 # Additions to the small case that avoid all warnings.
 BAND = '\n[band]\nmodel = "scaled"\nthickness = 0.2\n'
 LID = '\n[body.lid]\nmaterial = "rock"\nmin = [10.0, 3.0]\nmax = [14.0, 6.0]\ntemperature = -10.0\nporosity = 0.3\n'
-CASES = sorted((ROOT / "cases").glob("*/*.toml"))
-USER_DATA = {"alr", "fluchthorn"}  # need terrain of the user
 
 
 @pytest.fixture
@@ -35,23 +33,6 @@ def warnings_of(thawslide: Program, case: Path, *words: str) -> list[str]:
 
 def test_a_plain_case_has_no_warnings(thawslide: Program, plain_case: Path) -> None:
     assert warnings_of(thawslide, plain_case, "--set", "grid.cell=0.5") == []
-
-
-@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.parent.name}/{case.stem}")
-def test_the_cases_of_the_project_have_only_the_known_warnings(thawslide: Program, case: Path) -> None:
-    if case.parent.name in USER_DATA:
-        pytest.skip("the case needs data that are not in the repository")
-    notes = re.findall(r"^warning: (.*)$", thawslide.ok("check", case), re.MULTILINE)
-    expected = []
-    if case.parent.name == "valley3d":
-        if case.stem in ("columns", "weak"):  # their bodies are weaker than the base
-            expected.append("the base is stronger than the broken material of body slide (shear strength 0.")
-        expected.append("grid.steepest: the terrain is steeper than 65 degrees. Columns of nodes lowered: 450, ")
-    if case.stem == "two-parts":  # fitted to a force record
-        expected.append("material.rock_ice.residual_friction_angle is 35.3 degrees, outside the usual 20 to 35")
-        expected.append("substrate.glacier.friction_coefficient is 0.034, outside the usual 0.05 to 0.3 on glacier")
-    assert len(notes) == len(expected), notes
-    assert all(words in note for words, note in zip(expected, notes, strict=True)), notes
 
 
 COARSE = "{case}:11:8: grid.cell: across the median thickness of body block, 1.5 m, there are too few particles"

@@ -137,9 +137,7 @@ def test_a_run_ends_when_all_particles_have_left(thawslide: Program, slope: Slop
     )
     assert reported and facts["status"] == "done"
     assert printed.splitlines()[-1] == facts["message"]
-    work = re.search(
-        r"^([\d,]+) particles, ([\d,]+) at the end, .*: (\S+) million particle-steps", printed, re.MULTILINE
-    )
+    work = re.search(r"\n([\d,]+) particles, ([\d,]+) at the end, .*: (\S+) million particle-steps", printed)
     assert work and int(work[1].replace(",", "")) == facts["particles"] > int(work[2].replace(",", ""))
     assert work[3] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     assert facts["particle_steps_per_second"] * facts["wall_s"] < facts["particles"] * facts["steps"]

@@ -5,10 +5,8 @@ from pathlib import Path
 import odd_files as odd
 import pytest
 import rasterio
-from conftest import ROOT, Program, sets
+from conftest import Program, sets
 from rasterio.warp import transform
-
-FAULTS = ROOT.parent / "shared" / "data" / "faults"
 
 NONE, NOTED, REFUSED = "none", "noted", "refused"
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import conftest
 import numpy as np
 import pytest
-from conftest import LAMPLUGH, Program, Ran, assert_identical, history, mark_killed, run_facts, sets, snapshot_files
+from conftest import LAMPLUGH, Interrupted, Program, Ran, assert_identical, history, mark_killed, run_facts, sets
 from faults import before_its_first_checkpoint, digest, environment_of_fault, needs_failing_writes
 
 # Rows, snapshots and checkpoints have different times.
@@ -30,7 +30,7 @@ def complete(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 10), (signal.SIGINT, 30)])
 def test_a_stopped_run_ends_bitwise_identical(
-    thawslide: Program, interrupted: conftest.Interrupted, complete: Path, run: Path, number: int, percent: int
+    thawslide: Program, interrupted: Interrupted, complete: Path, run: Path, number: int, percent: int
 ) -> None:
     assert interrupted(LAMPLUGH, run, WORDS, number, percent) == 4
     facts = run_facts(run)
@@ -54,9 +54,7 @@ def test_a_stopped_run_ends_bitwise_identical(
     assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 600 / after["wall_s"])
 
 
-def test_a_killed_run_continues(
-    thawslide: Program, interrupted: conftest.Interrupted, complete: Path, run: Path
-) -> None:
+def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, complete: Path, run: Path) -> None:
     assert interrupted(LAMPLUGH, run, WORDS, signal.SIGKILL, 30) == -signal.SIGKILL
     assert run_facts(run)["status"] == "running"
     rows = history(run)["time_s"]
@@ -193,7 +191,7 @@ def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) ->
     words = [*ADAPTIVE, *sets(time__history_interval=1.1)]
     few = ran(*words, case=LAMPLUGH, name="few")
     assert run_facts(few)["steps"] == run_facts(whole)["steps"]
-    for one, other in zip(snapshot_files(few), snapshot_files(whole), strict=True):
+    for one, other in zip(conftest.snapshot_files(few), conftest.snapshot_files(whole), strict=True):
         first, second = conftest.datasets(one), conftest.datasets(other)
         assert all(values.tobytes() == second[key].tobytes() for key, values in first.items()), one.name
     rows = history(whole)["time_s"]
@@ -263,12 +261,12 @@ def test_last_row_and_snapshot_precede_the_checkpoint(ran: Ran, thawslide: Progr
     """Therefore a kill between them loses no results."""
     run = ran(*RESTS, *sets(checkpoint__interval=interval))
     rest = run_facts(run)["simulated_time_s"]
-    rows, names = (run / "history.csv").read_bytes(), [file.name for file in snapshot_files(run)]
+    rows, names = (run / "history.csv").read_bytes(), [file.name for file in conftest.snapshot_files(run)]
     assert history(run)["time_s"][-1] == rest
     mark_killed(run)
     thawslide.ok("resume", run)
     assert (run / "history.csv").read_bytes() == rows
-    assert [file.name for file in snapshot_files(run)] == names
+    assert [file.name for file in conftest.snapshot_files(run)] == names
     assert run_facts(run)["message"].startswith("the slide is at rest")
 
 

@@ -29,7 +29,7 @@ def rough_case(thawslide: Program, tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(("thickness", "width"), [(8.0, WIDTH), (40.0, 20.0)], ids=["noise", "cell"])
-def test_new_writes_the_filter_in_metres(
+def test_new_writes_the_filter(
     thawslide: Program, rough_case: Path, tmp_path: Path, thickness: float, width: float
 ) -> None:
     """It is that against noise, or half the thickness, which is a cell of `quick`, on any cells."""

@@ -151,9 +151,7 @@ def test_a_process_of_another_machine_counts_as_running(
     lock, given = killed / "run.lock", {"environment": without_locks}
     lock.write_text("process 12 on elsewhere\n")
     before = (killed / "history.csv").read_bytes()
-    message = (
-        f"error: {killed} may be being written by process 12 on elsewhere: its file system has no locks, and this "
-    )
+    message = f"error: {killed} may be being written by process 12 on elsewhere: its file system has no locks, "
     for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"]):
         assert thawslide.error(*words, **given).startswith(message)
     assert (killed / "history.csv").read_bytes() == before

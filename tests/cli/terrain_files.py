@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import rasterio
@@ -33,7 +34,7 @@ def place(x: float, y: float) -> tuple[float, float]:
 
 
 def write_raster(
-    file: Path, values: np.ndarray, west: float, south: float, cell: float, crs: str | None, nodata: float
+    file: Path, values: np.ndarray, west: float, south: float, cell: float, crs: Any, nodata: float
 ) -> Path:
     """Write a GeoTIFF, whose first row is in the north."""
     rows, columns = values.shape

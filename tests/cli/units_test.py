@@ -110,9 +110,8 @@ def text_about(thawslide: Program, case: Path, key: str, value: object, needed: 
     if outcome.returncode:
         assert outcome.returncode == 2 and f"{key} is " in outcome.stderr, outcome.stderr
         return outcome.stderr
-    return "\n".join(
-        line for line in outcome.stdout.splitlines() if line.startswith("warning:") and f" {key} is" in line
-    )
+    lines = outcome.stdout.splitlines()
+    return "\n".join(line for line in lines if line.startswith("warning:") and f" {key} is" in line)
 
 
 @pytest.mark.parametrize("key", VALUES)

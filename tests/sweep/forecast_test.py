@@ -178,17 +178,11 @@ def test_folders_of_others_are_left_alone(slope: Path, tmp_path: Path, capfd: Ca
         assert kept.read_text() == "mine"
 
 
-def test_members_without_weight_alone_give_no_results(tmp_path: Path) -> None:
+def test_members_without_weight_alone_give_no_results(slope: Path, tmp_path: Path) -> None:
     members = pd.DataFrame({"member": [0, 1], "status": ["done", "done"], "weight": [0.0, 0.0]})
-    design = read_sweep_file(sweep_file(tmp_path)).design
+    design = read_sweep_file(slope / "sweep.toml").design
     with pytest.raises(ReportError, match="no member with a weight is done"):
         write_outcome(SweepFolder(tmp_path), design, members, [], None, "maps", print)
-
-
-def sweep_file(folder: Path) -> Path:
-    (folder / "case.toml").write_text(CASE)
-    (folder / "sweep.toml").write_text(SWEEP)
-    return folder / "sweep.toml"
 
 
 def test_members_of_fine_cases_have_their_ground(tmp_path: Path, with_program: None) -> None:
@@ -197,9 +191,8 @@ def test_members_of_fine_cases_have_their_ground(tmp_path: Path, with_program: N
     thickness = np.zeros((300, 400))
     thickness[140:160, 100:130] = 40.0
     write(tmp_path / "thickness.tif", thickness, 400_000.0, NORTH, 10.0)
-    thawslide.new_case(
-        tmp_path / "dem.tif", tmp_path / "thickness.tif", folder, reach_angle=26.0, resolution="fine", on_message=print
-    )
+    inputs = tmp_path / "dem.tif", tmp_path / "thickness.tif"
+    thawslide.new_case(*inputs, folder, reach_angle=26.0, resolution="fine", on_message=print)
     cells = tomllib.loads((folder / "sweep.toml").read_text())["sweep"]["set"]
     assert cells["grid.cell"] > Case(folder)["grid.cell"]
     sets = [word for key, value in cells.items() for word in ("--set", f"{key}={value}")]
@@ -217,9 +210,8 @@ def test_a_design_of_a_2d_case_is_for_sweep(tmp_path: Path, capfd: Capture) -> N
 def test_new_writes_a_design_whose_members_are_valid(tmp_path: Path, with_program: None, resolution: str) -> None:
     valley, folder = ROOT / "cases" / "valley3d", tmp_path / "slide"
     printed: list[str] = []
-    thawslide.new_case(
-        valley / "valley.tif", valley / "release.geojson", folder, resolution=resolution, on_message=printed.append
-    )
+    inputs = valley / "valley.tif", valley / "release.geojson"
+    thawslide.new_case(*inputs, folder, resolution=resolution, on_message=printed.append)
     assert any(line.endswith(f" forecast {folder}") for line in printed)
     design = read_sweep_file(folder / "sweep.toml").design
     cases = validated(design.members())

@@ -100,9 +100,8 @@ def start(case: Path, sweep: Path) -> subprocess.Popen[bytes]:
     """Start or continue the sweep in a session of its own."""
     angles = ",".join(str(15 + number) for number in range(MEMBERS))
     command = [sys.executable, "-m", "thawslide.sweeps.command", str(case), "--vary", f"basal.friction_angle={angles}"]
-    return subprocess.Popen(
-        [*command, "--workers", "2", "--output", str(sweep)], stderr=subprocess.DEVNULL, start_new_session=True
-    )
+    command += ["--workers", "2", "--output", str(sweep)]
+    return subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True)
 
 
 def workers_of(driver: int) -> list[int]:

@@ -59,9 +59,7 @@ def test_a_distribution_inside_its_limits_does_not_change() -> None:
 
 
 @pytest.mark.parametrize("sample", ["lhs:20", "sobol:16", "saltelli:4", "morris:4"])
-def test_a_sweep_beyond_the_limits_of_a_key_runs_with_a_note(
-    slope: Path, tmp_path: Path, capfd: Capture, sample: str
-) -> None:
+def test_a_sweep_beyond_the_limits_of_keys_has_a_note(slope: Path, tmp_path: Path, capfd: Capture, sample: str) -> None:
     command = [str(slope), "--block", "--set", "time.end=0.02", "--sample", sample, "--output", str(tmp_path / "sweep")]
     command += ["--normal", f"{ANGLE}=5:4", "--range", "band.thickness=0:1"]
     assert main(command) == 0
@@ -141,9 +139,7 @@ def test_correlated_keys_have_the_rank_correlation_and_distributions(method: str
         ("lhs", 9, [("a", "b", 0.9), ("b", "c", 0.9), ("a", "c", -0.9)], "contradict each other"),
     ],
 )  # fmt: skip
-def test_invalid_correlations_are_refused(
-    method: str, count: int, correlations: list[tuple[str, str, float]], words: str
-) -> None:
+def test_invalid_correlations_are_refused(method: str, count: int, correlations: list[Any], words: str) -> None:
     variables = tuple(Uniform(key, 0.0, 1.0) for key in "abc")
     with pytest.raises(ReportError, match=words):
         Design(("case",), variables, method, count, correlations=tuple(correlations))

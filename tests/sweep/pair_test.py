@@ -39,9 +39,7 @@ def test_power_law_is_extrapolated_to_its_limit(order: float) -> None:
         ((1.0, 2.0, 2.0), "the results on 2h and h are equal", 1.0),
     ],
 )
-def test_without_an_order_no_value_is_extrapolated(
-    values: tuple[float, float, float], reason: str, spread: float
-) -> None:
+def test_without_an_order_nothing_is_inferred(values: tuple[float, float, float], reason: str, spread: float) -> None:
     found = error_of(*values)
     assert found.reason == reason
     assert math.isnan(found.limit) and math.isnan(found.order)

@@ -127,7 +127,7 @@ def test_folders_without_maps_are_refused(tmp_path: Path, capsys: Capture) -> No
         (np.where(np.arange(12) > 5, np.nan, 900.0), "arrival", False),
     ],
 )  # fmt: skip
-def test_another_raster_than_a_map_is_named(
+def test_other_rasters_are_named(
     tmp_path: Path, capsys: Capture, values: Numbers, quantity: str, is_noted: bool
 ) -> None:
     plain = write(tmp_path / "plain.tif", np.where(np.arange(12) > 5, np.nan, 3.0).reshape(3, 4))
