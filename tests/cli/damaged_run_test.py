@@ -45,15 +45,11 @@ UPTO = "up to t = 0.15 s, which are missing or damaged"
 # Changes of the rows of a history, the first of which is its header; the rows left; the warning.
 DAMAGE: dict[str, tuple[Callable[[list[str]], list[str]], list[int], str]] = {
     "truncated": (lambda rows: rows[:6], [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}"),
-    "garbled": (
-        lambda rows: [*rows[:7], "0.0x" + rows[7], *rows[8:]], [*range(6), *range(7, 21)],
-        "lacks 1 of the 16 rows {upto}",
-    ),
+    "garbled": (lambda rows: [*rows[:7], "0.0x" + rows[7], *rows[8:]], [*range(6), *range(7, 21)],
+                "lacks 1 of the 16 rows {upto}"),
     "removed": (lambda rows: rows[:7] + rows[9:], [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}"),
-    "header": (
-        lambda rows: ["\0" * 20 + "\n", *rows[1:]], list(range(21)),
-        "is not as the run wrote it; its rows are complete and are kept",
-    ),
+    "header": (lambda rows: ["\0" * 20 + "\n", *rows[1:]], list(range(21)),
+               "is not as the run wrote it; its rows are complete and are kept"),
 }  # fmt: skip
 
 

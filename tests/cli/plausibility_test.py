@@ -43,19 +43,15 @@ SOFT, OUTPUT = "material.rock.youngs_modulus", "time.output_interval"
 @pytest.mark.parametrize(
     ("words", "start"),
     [
-        (
-            sets(body__block__min="[10.0,2.0]", body__block__max="[14.0,5.0]"),
-            "{case}:27:1: body.block floats: its underside is 2 m above what is below it, and it falls for 0.64 s ",
-        ),
+        (sets(body__block__min="[10.0,2.0]", body__block__max="[14.0,5.0]"),
+         "{case}:27:1: body.block floats: its underside is 2 m above what is below it, and it falls for 0.64 s "),
         (sets(body__block__max="[14.0,1.5]"), COARSE),
         (sets(band__thickness=5), "--set band.thickness=5: band.thickness is 5 m: more than the body block, 3 m thick"),
-        (
-            sets(material__rock__youngs_modulus=1e6, time__step=0.001),
-            f"--set {SOFT}=1000000.0: {SOFT} is 1000000 Pa: the weight of body block, 65,000 Pa where it is thickest, ",
-        ),
+        (sets(material__rock__youngs_modulus=1e6, time__step=0.001),
+         f"--set {SOFT}=1000000.0: {SOFT} is 1000000 Pa: the weight of body block, 65,000 Pa where it is thickest, "),
         (sets(time__output_interval=100), f"--set {OUTPUT}=100: {OUTPUT} is 100 s: longer than "),
     ],
-)
+)  # fmt: skip
 def test_unintended_values_have_a_warning(thawslide: Program, plain_case: Path, words: list[str], start: str) -> None:
     """Each appears once, with location, value and remedy; `run` has the same warning."""
     cell = [] if start == COARSE else sets(grid__cell=0.5)

@@ -81,55 +81,39 @@ LOST = (
 @pytest.mark.parametrize(
     ("prepare", "words", "message"),
     [
-        (
-            unchanged, "--set grid.cell=2 --set body.block.porosity=0.1 --end 1",
-            "grid.cell, body.block.porosity cannot be changed on resume, because earlier results depend on it. "
-            "Allowed: [time], [checkpoint], [guards], grid.leaving, ",
-        ),
+        (unchanged, "--set grid.cell=2 --set body.block.porosity=0.1 --end 1",
+         "grid.cell, body.block.porosity cannot be changed on resume, because earlier results depend on it. "
+         "Allowed: [time], [checkpoint], [guards], grid.leaving, "),
         (unchanged, "--end 0.1", "the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one."),
         (unchanged, "--end 2 --set time.end=3", "--end is short for --set time.end: give one of the two."),
         (unchanged, "--end -1", "-1 found; allowed: above 0"),
         (unchanged, "--set grid.cel=2", "key 'grid.cel' is not known in [grid]; did you mean 'cell'?"),
-        (
-            unchanged, "--set basal.friction_angle=5",
-            "{run} has reached its end at 0.2 s: no step is left that could take basal.friction_angle=5. Give a later "
-            "end too: --end T.\n",
-        ),
+        (unchanged, "--set basal.friction_angle=5",
+         "{run} has reached its end at 0.2 s: no step is left that could take basal.friction_angle=5. Give a later "
+         "end too: --end T.\n"),
         (unchanged, "--end 0.3 --set guards.volume=remove", "a continued run cannot change this. Run the case again."),
         (unchanged, "--output {run} --end 0.3", "contains another run. Specify another --output"),
         # Results after the older checkpoint would be removed.
-        (
-            without_last_checkpoint, "--end 0.1",
-            "the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one.",
-        ),
-        (
-            changed_case(END, COHESION), "",
-            SINCE_CHECKPOINT + "material.rock.cohesion is 200000.0, was 100000.0; time.end is 0.4, was 0.2. Put that "
-            "back, or remove the file, which is then written again. Specify changes on the command line: "
-            "thawslide resume {run} --set KEY=VALUE, or --end T.\n",
-        ),
-        (
-            changed_case(END), "",
-            SINCE_CHECKPOINT + "time.end is 0.4, was 0.2. Specify a new end on the command line: "
-            "thawslide resume {run} --end 0.4.\n",
-        ),
-        (
-            lambda run: edit(run / "case.toml", *END), "",
-            "{run} has reached its end at 0.2 s, and {run}/case.toml has changed since: time.end is 0.4, was 0.2. "
-            "Specify a new end on the command line: thawslide resume {run} --end 0.4.\n",
-        ),
+        (without_last_checkpoint, "--end 0.1",
+         "the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one."),
+        (changed_case(END, COHESION), "",
+         SINCE_CHECKPOINT + "material.rock.cohesion is 200000.0, was 100000.0; time.end is 0.4, was 0.2. Put that "
+         "back, or remove the file, which is then written again. Specify changes on the command line: "
+         "thawslide resume {run} --set KEY=VALUE, or --end T.\n"),
+        (changed_case(END), "",
+         SINCE_CHECKPOINT + "time.end is 0.4, was 0.2. Specify a new end on the command line: "
+         "thawslide resume {run} --end 0.4.\n"),
+        (lambda run: edit(run / "case.toml", *END), "",
+         "{run} has reached its end at 0.2 s, and {run}/case.toml has changed since: time.end is 0.4, was 0.2. "
+         "Specify a new end on the command line: thawslide resume {run} --end 0.4.\n"),
         (changed_before_checkpoint, "", SINCE_START),
         (changed_before_checkpoint, "--end 0.3", SINCE_START),
-        (
-            changed_without_checkpoints, "",
-            "its SHA-256 is not that of run.json. There is no checkpoint to continue from",
-        ),
+        (changed_without_checkpoints, "",
+         "its SHA-256 is not that of run.json. There is no checkpoint to continue from"),
         (without_checkpoints, "--end 0.3", LOST),
         (lambda run: (mark_killed(run), without_checkpoints(run)), "--end 0.3", LOST),
-        (
-            foreign_copy, "--end 0.3",
-            "{run}/run.json: damaged: it names ../../../etc/hostname as the copy of an input; those lie in inputs/.\n",
-        ),
+        (foreign_copy, "--end 0.3",
+         "{run}/run.json: damaged: it names ../../../etc/hostname as the copy of an input; those lie in inputs/.\n"),
     ],
 )  # fmt: skip
 def test_a_change_is_refused(thawslide: Program, done: Path, prepare: Prepare, words: str, message: str) -> None:
