@@ -79,7 +79,7 @@ def test_bodies_above_and_apart_from_others_have_warnings(thawslide: Program, pl
     floats, apart = "body.lid floats: its underside is ", "body.lid stands apart from body.block, and contact.between_"
     assert [any(words in note for note in notes) for words in (floats, apart)] == [True, True]
     run = thawslide.ok("run", plain_case, "--output", plain_case.parent / "run", *lifted, *sets(time__end=0.001))
-    assert f"warning: {apart}" in run
+    assert apart in run
 
 
 def test_json_contains_the_facts_of_the_text(thawslide: Program, plain_case: Path) -> None:

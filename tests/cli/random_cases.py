@@ -1,6 +1,6 @@
 """Random valid cases: any terrain, release, path, probes and domain. The program may refuse them with a message.
 
-RANDOM_CASES=FIRST:LAST in the environment selects the seeds; pytest keeps the folders of the last three runs.
+`RANDOM_CASES=FIRST:LAST pytest tests/cli/cases_test.py -k random` tests these seeds, and keeps their folders.
 """
 
 import os

@@ -12,7 +12,7 @@ import conftest
 import h5py
 import numpy as np
 import pytest
-from conftest import LAMPLUGH, ROOT, Program, Ran, Slope, history, run_facts, sets, snapshot_files
+from conftest import LAMPLUGH, ROOT, Program, Ran, Slope, columns_of, history, run_facts, sets, snapshot_files
 
 END = 1.0  # s, of the Lamplugh runs
 UNITS = {
@@ -116,15 +116,11 @@ def test_run_json_reports_inputs_with_their_hashes_and_speed(lamplugh: Path) -> 
 
 def test_terrain_is_the_ground_of_the_columns_inside_the_domain(lamplugh: Path) -> None:
     """Columns are at the points of the profile. At a column, uGIMP has the weights 1/16, 7/8 and 1/16."""
-    header, *rows = (lamplugh / "terrain.csv").read_text().splitlines()
-    assert header == "distance_m,terrain_elevation_m"
-    points = [tuple(map(float, row.split(","))) for row in rows]
+    terrain, profile = columns_of(lamplugh / "terrain.csv"), columns_of(LAMPLUGH / "lamplugh_profile.csv")
+    assert list(terrain) == ["distance_m", "terrain_elevation_m"]
+    points = list(zip(*terrain.values(), strict=True))
     assert points[0][0] == -200.0 and points[-1][0] == 12000.0
-    given = {}
-    for line in (LAMPLUGH / "lamplugh_profile.csv").read_text().splitlines():
-        if line[:1].isdigit() or line[:1] == "-":
-            x, elevation, _ = map(float, line.split(","))
-            given[x] = elevation
+    given = dict(zip(profile["distance_m"], profile["terrain_elevation_m"], strict=True))
     column = {x: (given[x - 10.0] + 4.0 * z + given[x + 10.0]) / 6.0 for x, z in given.items() if -200.0 < x < 12000.0}
     for x, elevation in points[2:-2]:
         before, here, after = (column[round(x + step, 6)] for step in (-10.0, 0.0, 10.0))
