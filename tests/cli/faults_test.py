@@ -43,7 +43,7 @@ def test_a_failing_write_loses_nothing(binary: Path, small_case: Path, tmp_path:
 @pytest.mark.parametrize(
     ("reason", "words"), [("std", "a call of the system failed?[31m"), ("other", "an exception of unknown type")]
 )
-def test_last_resort_is_a_report(thawslide: Program, small_case: Path, tmp_path: Path, reason: str, words: str) -> None:
+def test_exceptions_are_reported(thawslide: Program, small_case: Path, tmp_path: Path, reason: str, words: str) -> None:
     """Any exception that no code expects: here one that opening the lock of the run throws."""
     command = ["run", small_case, "--output", tmp_path / "run"]
     environment = faults.environment_of_fault(tmp_path / "run", 2, "once", reason) | {"TMPDIR": str(tmp_path)}
