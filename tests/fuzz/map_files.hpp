@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "changes.hpp"
 #include "target.hpp"
 
 namespace thawslide::fuzz {

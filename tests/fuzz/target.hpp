@@ -1,6 +1,7 @@
-// Common parts of the targets: a folder for the input, and the allowed results of a reader.
+// Common parts of the targets: a folder for the input, changes to valid bytes, and the allowed results of a reader.
 #pragma once
 
+#include <fuzzer/FuzzedDataProvider.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -66,6 +67,26 @@ bool gives_value(const std::string& file, const Read& read) {
   } catch (const RunError& error) {
     return specified(error);
   }
+}
+
+using Provider = FuzzedDataProvider;
+
+inline bool chance(Provider& bytes, int of) { return bytes.ConsumeIntegralInRange(1, of) == 1; }
+
+// The text with some of its bytes overwritten, or cut off: such changes reach more code than random bytes.
+inline std::string changed(std::string text, Provider& bytes) {
+  while (bytes.remaining_bytes() > 0 && !text.empty()) {
+    const auto place = bytes.ConsumeIntegralInRange<std::size_t>(0, text.size() - 1);
+    const std::string put = bytes.ConsumeRandomLengthString(8);
+    if (put.empty() && chance(bytes, 8)) {
+      text.resize(place);
+      continue;
+    }
+    for (std::size_t k = 0; k < put.size() && place + k < text.size(); ++k) {
+      text[place + k] = put[k];
+    }
+  }
+  return text;
 }
 
 }  // namespace thawslide::fuzz

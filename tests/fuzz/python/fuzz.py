@@ -22,10 +22,7 @@ def main() -> None:
     def test_one_input(data: bytes) -> None:
         folder.check(data)
 
-    atheris.Setup(
-        [sys.argv[0], "-timeout=10", "-rss_limit_mb=2048", *sys.argv[1:]],
-        test_one_input,
-    )
+    atheris.Setup([sys.argv[0], "-timeout=10", "-rss_limit_mb=2048", *sys.argv[1:]], test_one_input)
     atheris.Fuzz()
 
 

@@ -59,10 +59,7 @@ class Reader:
     read: Callable[[Path], object]
 
 
-READERS = {
-    "force_record": Reader("inputs/force.csv", _force_record),
-    "targets": Reader("inputs/targets.csv", _targets),
-}
+READERS = {"force_record": Reader("inputs/force.csv", _force_record), "targets": Reader("inputs/targets.csv", _targets)}
 
 
 def write_run(folder: Path) -> None:
