@@ -1,52 +1,36 @@
-"""Reports of runs with band columns: stresses, temperatures, boiling, heat and water."""
+"""Reports of runs with band columns or an erodible bed: stresses, temperatures, boiling, heat, water, entrainment."""
 
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, edit, history_columns, page_of, write_history
-from figures_test import line, texts, titled
+from conftest import MakeRun, column_history, edit, numbers, page_of, snapshot_file, write_history
+from figure_parts import line, plotted, texts, titled
+from scipy.integrate import simpson
 
 from thawslide import NotInRunError, Run
 from thawslide.boiling import boiling_temperature, saturation_pressure
 from thawslide.figures import FIGURES
 from thawslide.figures.energy import relative_residual
+from thawslide.figures.entrainment import entrained_depth
 from thawslide.figures.water import LOSSES, relative_water_residual
-from thawslide.key_numbers import key_numbers, stop_time
-from thawslide.report_page import figures_of
+from thawslide.key_numbers import stop_time
+from thawslide.report_page import figures_of, make_report
 
 BOILING = "boiling temperature at mean N"
-
-
-def column_history(rows: int = 101) -> dict[str, np.ndarray]:
-    columns = history_columns(rows, 2)
-    t = columns["time_s"]
-    columns |= {
-        "band_normal_pressure_Pa": np.full(rows, 1.0e6), "band_shear_Pa": 4.0e5 - 2.0e4 * t,
-        "band_thickness_m": np.full(rows, 0.55), "dilation_fraction": 0.003 * t, "band_max_temperature_C": 17.0 * t,
-        "band_max_pressure_ratio": 0.1 * t, "base_area_m2": np.full(rows, 1.0e6), "column_heat_J": -3e12 + 0.1e12 * t,
-        "column_intake_J": -3e12 - 0.1e12 * t, "column_drained_J": 0.05e12 * t, "column_steam_J": 0.15e12 * t,
-        "column_left_J": np.zeros(rows), "column_water_kg": 3e9 + 1e7 * t, "column_intake_kg": 3e9 + 4e7 * t,
-        "column_drained_kg": 2e7 * t, "column_steam_kg": 1e7 * t, "column_left_kg": np.zeros(rows),
-        "column_water_residual_kg": 1e-3 * t, "column_opening_m3": 50.0 * t, "column_void_m3": 2e4 - 100.0 * t,
-    }  # fmt: skip
-    return columns
 
 
 def add_base(folder: Path) -> None:
     """Add 20 basal segments in random order to each snapshot except the first."""
     x = 20.0 + np.random.default_rng(1).permutation(20)
-    for number, path in enumerate(Run(folder).snapshot_files[1:]):
-        with h5py.File(path, "a") as file:
+    for number in range(1, 11):
+        with h5py.File(snapshot_file(folder, number), "a") as file:
             for name, values in {
-                "position_m": np.stack([x, 100.0 - 0.5 * x, 0.0 * x], axis=1),
-                "area_m2": np.full(20, 1.0),
-                "normal_pressure_Pa": 1.0e6 + 1e4 * x,
-                "pore_pressure_Pa": 1.0e4 * x * number / 10,
-                "temperature_C": 2.0 * x,
-                "max_temperature_C": 3.0 * x,
-            }.items():
+                "position_m": np.stack([x, 100.0 - 0.5 * x, 0.0 * x], axis=1), "area_m2": np.full(20, 1.0),
+                "normal_pressure_Pa": 1.0e6 + 1e4 * x, "pore_pressure_Pa": 1.0e4 * x * (number - 1) / 10,
+                "temperature_C": 2.0 * x, "max_temperature_C": 3.0 * x,
+            }.items():  # fmt: skip
                 file[f"basal_segments/{name}"] = values
 
 
@@ -71,43 +55,44 @@ def test_boiling_temperature_is_that_of_the_simulator(pressure: float, temperatu
 def test_boiling_follows_clausius_and_clapeyron() -> None:
     # d(ln P)/dT = L_v/(R_v T^2), integrated by Simpson's rule from 100 C.
     for end in (40.0, 130.0, 215.0):
-        steps = 400
-        t = np.linspace(100.0, end, steps + 1)
-        slope = (2.5e6 - 2360.0 * t) / (461.5 * (t + 273.15) ** 2)
-        weights = np.ones(steps + 1)
-        weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
-        log_of_pressure = (end - 100.0) / steps / 3.0 * float(weights @ slope)
+        t = np.linspace(100.0, end, 401)
+        log_of_pressure = simpson((2.5e6 - 2360.0 * t) / (461.5 * (t + 273.15) ** 2), x=t)
         assert boiling_temperature(101325.0 * np.expm1(log_of_pressure)) == pytest.approx(end, abs=1e-7)
     assert np.isnan(boiling_temperature([np.nan, 0.0])).tolist() == [True, False]
 
 
-def test_stresses_are_in_one_panel(columns_run: Path) -> None:
+def test_stresses_and_temperatures_are_in_one_panel_each(columns_run: Path) -> None:
     run = Run(columns_run)
     stresses = titled(FIGURES["band"].plot(run), "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
-    load, pore_pressure = run.series["band_normal_pressure_Pa"], run.series["band_pore_pressure_Pa"]
-    for label, values in (
-        ("normal pressure N", load),
-        ("pore pressure P", pore_pressure),
-        ("effective stress N − P", load - pore_pressure),
-        ("shear traction", run.series["band_shear_Pa"]),
-    ):
-        np.testing.assert_allclose(line(stresses, label)[1] * 1e6, values)
+    load, pressure = run.series["band_normal_pressure_Pa"], run.series["band_pore_pressure_Pa"]
+    np.testing.assert_allclose(line(stresses, "normal pressure N")[1] * 1e6, load)
+    np.testing.assert_allclose(line(stresses, "pore pressure P")[1] * 1e6, pressure)
+    np.testing.assert_allclose(line(stresses, "effective stress N − P")[1] * 1e6, load - pressure)
+    np.testing.assert_allclose(line(stresses, "shear traction")[1] * 1e6, run.series["band_shear_Pa"])
     assert 'or on N alone for substrates with the law "coefficient"' in FIGURES["band"].caption_of(run)
+    figure = FIGURES["band"].plot(run)
+    heat = titled(figure, "(b)")
+    np.testing.assert_allclose(line(heat, "mean")[1], run.series["band_temperature_C"])
+    np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.series["band_max_temperature_C"])
+    np.testing.assert_allclose(line(heat, f"{BOILING} (above the panel)")[1], 187.243587897609)
+    assert not any("boiling point" in text for axes in figure.axes for text in texts(axes))
+    np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.series["band_saturation"])
+    np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
+    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.series["band_max_pressure_ratio"])
 
 
 def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
     targets = next(columns_run.glob("**/*targets*.csv"))
     for reported in ("", "band_pore_pressure,4,9e5,Pa,some laboratory\n"):
         targets.write_text("quantity,time_s,value,unit,source\n" + reported)
-        figure = FIGURES["band"].plot(Run(columns_run))
+        figure = plotted("band", columns_run)
         figure.draw_without_rendering()
         stresses = titled(figure, "(a)")
         legend = stresses.get_legend()
         assert legend is not None and len(legend.get_texts()) == 4 + bool(reported)
         box, panel = legend.get_window_extent(), stresses.get_window_extent()
-        assert box.y1 <= panel.y1
-        assert panel.x0 <= box.x0 < box.x1 <= panel.x1
+        assert box.y1 <= panel.y1 and panel.x0 <= box.x0 < box.x1 <= panel.x1
         highest = max(float(np.nanmax(curve.get_ydata())) for curve in stresses.lines)
         assert box.y0 > stresses.transData.transform((0.0, highest))[1]
 
@@ -127,23 +112,9 @@ def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
     ]  # fmt: skip
 
 
-def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
-    run = Run(columns_run)
-    figure = FIGURES["band"].plot(run)
-    heat = titled(figure, "(b)")
-    np.testing.assert_allclose(line(heat, "mean")[1], run.series["band_temperature_C"])
-    np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.series["band_max_temperature_C"])
-    np.testing.assert_allclose(line(heat, f"{BOILING} (above the panel)")[1], 187.243587897609)
-    assert not any("boiling point" in text for axes in figure.axes for text in texts(axes))
-    np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.series["band_saturation"])
-    np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
-    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.series["band_max_pressure_ratio"])
-
-
 def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["energy"].plot(run)
-    thermal = titled(figure, "(b)")
+    thermal = titled(FIGURES["energy"].plot(run), "(b)")
     t = run.series["time_s"]
     assert not {found.get_label() for found in thermal.lines} & {"gained from the body", "heat in band columns"}
     warming = line(thermal, "warming and melting of columns")[1]
@@ -152,30 +123,34 @@ def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
     np.testing.assert_allclose(line(thermal, "lost with steam")[1], 0.15 * t, atol=1e-9)
     columns = column_history()
     # Colder material, all of which joins: heat relative to the reference state changes, warming does not.
-    for name in ("column_heat_J", "column_intake_J"):
-        columns[name] = columns[name] - 5e13 * t
+    columns |= {name: columns[name] - 5e13 * t for name in ("column_heat_J", "column_intake_J")}
     write_history(columns_run / "history.csv", columns)
-    colder = titled(FIGURES["energy"].plot(Run(columns_run)), "(b)")
+    colder = titled(plotted("energy", columns_run), "(b)")
     np.testing.assert_allclose(line(colder, "warming and melting of columns")[1], warming, atol=1e-9)
     columns["column_heat_J"] = 1e14 * t + columns["column_intake_J"]
     write_history(columns_run / "history.csv", columns)
     np.testing.assert_allclose(relative_residual(Run(columns_run), "thermal_residual_J"), 2e2 * t / 1e15)
 
 
-def test_water_terms_have_their_panels(columns_run: Path) -> None:
+def test_water_terms_have_their_panels_also_if_they_are_zero(columns_run: Path, make_run: MakeRun) -> None:
     run = Run(columns_run)
     figure = FIGURES["water"].plot(run)
     t = run.series["time_s"]
-    content, losses, voids = (titled(figure, f"({letter})") for letter in "abc")
-    labels = [axes.get_ylabel() for axes in (content, losses, voids)]
-    assert labels == ["mass (million t)", "mass (thousand t)", "volume (thousand m³)"]
-    np.testing.assert_allclose(line(content, "gained from the body")[1], 3.0 + 0.04 * t)
-    np.testing.assert_allclose(line(losses, "steam")[1], 10.0 * t)
-    np.testing.assert_allclose(line(voids, "openings along the base")[1], 0.05 * t)
-    residual = relative_water_residual(run)
-    assert residual is not None
-    np.testing.assert_allclose(residual, 1e-3 * t / 3.4e9)
+    for letter, unit, label, values in (
+        ("a", "mass (million t)", "gained from the body", 3.0 + 0.04 * t),
+        ("b", "mass (thousand t)", "steam", 10.0 * t),
+        ("c", "volume (thousand m³)", "openings along the base", 0.05 * t),
+    ):
+        axes = titled(figure, f"({letter})")
+        assert axes.get_ylabel() == unit
+        np.testing.assert_allclose(line(axes, label)[1], values)
+    np.testing.assert_allclose(relative_water_residual(run), 1e-3 * t / 3.4e9)
     assert titled(figure, "(d)").get_yscale() == "log"
+    nothing = column_history() | {name: np.zeros(101) for name in LOSSES}
+    figure = plotted("water", make_run(name="nothing", history=nothing))
+    losses = titled(figure, "(b)")
+    assert "all terms are zero" in texts(losses) and not losses.lines
+    assert "all terms are zero" not in texts(titled(figure, "(a)"))
 
 
 def test_runs_without_columns_have_no_figures_of_columns_but_a_stop_time(make_run: MakeRun) -> None:
@@ -187,10 +162,12 @@ def test_runs_without_columns_have_no_figures_of_columns_but_a_stop_time(make_ru
     assert FIGURES["band"].caption_of(run) == FIGURES["band"].caption
     thermal = titled(FIGURES["energy"].plot(run), "(b)")
     assert not any("column" in str(found.get_label()) for found in thermal.lines)
-    assert "Maximum temperature of all columns" not in [row.words for row in key_numbers(run)]
-    assert not FIGURES["base_along"].suits(run)
+    assert "Maximum temperature of all columns" not in numbers(run)
+    assert not FIGURES["base_along"].suits(run) and not FIGURES["entrainment"].suits(run)
     with pytest.raises(NotInRunError, match="no basal segments in the snapshots"):
         FIGURES["base_along"].plot(run)
+    with pytest.raises(NotInRunError, match=r"found no \[bed\] in the case"):
+        FIGURES["entrainment"].plot(run)
     # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
     assert stop_time(run, 0.1) == pytest.approx(9.8) and stop_time(run, 20.0) is None
 
@@ -201,10 +178,10 @@ def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> N
     page = page_of(columns_run, "band", "energy", "water")
     assert "Water does not boil" not in page and "heat.steam is false" not in page
     assert "Area-weighted means over the base" in page and "particles next to the terrain" not in page
-    found = {row.words: (row.value, row.remark) for row in key_numbers(Run(columns_run))}
-    assert found["Maximum temperature of all columns"] == ("170 °C", "at 10 s")
-    assert found["Maximum pore pressure ratio P/N"] == ("1", "at 10 s")
-    assert found["Water lost as steam"] == ("100,000 t", "until the end")
+    assert numbers(Run(columns_run)).items() >= {
+        "Maximum temperature of all columns": ("170 °C", "at 10 s"),
+        "Maximum pore pressure ratio P/N": ("1", "at 10 s"), "Water lost as steam": ("100,000 t", "until the end"),
+    }.items()  # fmt: skip
     edit(columns_run / "case.toml", "steam = true", "steam = false")
     page = page_of(columns_run, "band")
     assert "from 9.3 s on and attains 110 °C. Water does not boil because heat.steam is false." in page
@@ -212,11 +189,8 @@ def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> N
 
 def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_path: Path) -> None:
     columns = column_history(1)
-    for name in columns:
-        if name.startswith("band_") and not name.endswith("_J"):
-            columns[name][:] = np.nan
-        elif name.startswith("column_"):
-            columns[name][:] = 0.0
+    columns |= {name: np.full(1, np.nan) for name in columns if name.startswith("band_") and not name.endswith("_J")}
+    columns |= {name: np.zeros(1) for name in columns if name.startswith("column_")}
     write_history(columns_run / "history.csv", columns)
     run = Run(columns_run)
     for name in ("band", "energy", "water"):
@@ -225,21 +199,9 @@ def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_p
     assert texts(titled(FIGURES["water"].plot(run), "(d)")) == ["residual is zero"]
 
 
-def test_terms_of_the_water_budget_that_are_zero_are_stated(make_run: MakeRun) -> None:
-    history = column_history()
-    history |= {name: np.zeros(len(history["time_s"])) for name in LOSSES}
-    figure = FIGURES["water"].plot(Run(make_run(history=history)))
-    losses = titled(figure, "(b)")
-    assert "all terms are zero" in texts(losses) and not losses.lines
-    assert "all terms are zero" not in texts(titled(figure, "(a)"))
-
-
 def test_reference_lines_do_not_widen_the_panels(make_run: MakeRun) -> None:
-    history = column_history()
-    rows = len(history["time_s"])
-    history |= {"band_temperature_C": np.linspace(-8.0, -6.0, rows), "band_max_temperature_C": np.full(rows, -5.0)}
-    history["band_max_pressure_ratio"] = np.full(rows, 0.01)
-    folder = make_run(history=history)
+    history = {"band_temperature_C": np.linspace(-8.0, -6.0, 101), "band_max_temperature_C": np.full(101, -5.0)}
+    folder = make_run(history=column_history() | history | {"band_max_pressure_ratio": np.full(101, 0.01)})
     add_base(folder)
     figure = FIGURES["band"].plot(Run(folder))
     heat, ratio = titled(figure, "(b)"), titled(figure, "(e)")
@@ -248,3 +210,56 @@ def test_reference_lines_do_not_widen_the_panels(make_run: MakeRun) -> None:
     assert ratio.get_ylim()[1] == pytest.approx(0.0108)
     along = FIGURES["base_along"].plot(Run(folder)).axes[-1]
     assert along.get_ylim()[1] < 150.0 < line(along, "boiling T at N")[1].min()
+
+
+BED_DENSITY, JOINED = 900.0, 8  # kg/m3; particles of the bed in the last snapshot
+
+
+@pytest.fixture
+def bed_run(make_run: MakeRun) -> Path:
+    t = np.linspace(0.0, 10.0, 101)
+    columns = {
+        "entrained_mass_kg": 2e4 * t, "entrained_volume_m3": 2e4 * t / BED_DENSITY, "entrained_work_J": 1e6 * t,
+        "entrained_heat_J": 4e5 * t, "loose_mass_kg": np.full(101, 1e3), "bed_mass_kg": 1e6 - 2e4 * t,
+        "bed_residual_kg": np.zeros(101), "bed_residual_J": np.zeros(101),
+    }  # fmt: skip
+    tables = '[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n'
+    folder = make_run(history=columns, tables=tables)
+    with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
+        group = file["VTKHDF"]
+        for owner, name in [(group, "Points"), *((group["PointData"], name) for name in list(group["PointData"]))]:
+            values = owner[name][:]
+            joined = values[:JOINED].copy()
+            if name in ("body", "mass"):
+                joined[:] = 1 if name == "body" else 900.0
+            if name == "id":
+                joined += len(values)
+            if name == "displacement":
+                joined[:, 0] = group["Points"][:JOINED, 0] - 60.5  # all of one cell, from 59 to 61 m
+            attributes = dict(owner[name].attrs)
+            del owner[name]
+            owner.create_dataset(name, data=np.concatenate([values, joined])).attrs.update(attributes)
+    return folder
+
+
+def test_entrained_depth_is_at_the_place_of_joining(bed_run: Path) -> None:
+    edges, depth = entrained_depth(Run(bed_run))
+    cell = int(np.searchsorted(edges, 60.5)) - 1
+    assert edges[cell + 1] - edges[cell] == 8.0
+    assert depth[cell] == pytest.approx(JOINED * 1.0 / 8.0)  # 1 m3 each per metre of width, in four cells 2 m wide
+    assert np.count_nonzero(depth) == 1
+
+
+def test_entrainment_has_a_figure_and_a_key_number(bed_run: Path) -> None:
+    run = Run(bed_run)
+    assert "entrainment" in figures_of(run)
+    figure = FIGURES["entrainment"].plot(run)
+    np.testing.assert_allclose(line(titled(figure, "(b)"), "work of entrainment")[1][-1], 10.0)  # MJ
+    assert numbers(run)["Entrained bed volume"][0] == "222 m³"
+    report = make_report(Run(bed_run), names=["velocity", "entrainment", "energy"], dpi=40)
+    assert set(report.figures) == {"velocity", "entrainment", "energy"}
+    for name in ("entrained_mass_kg", "entrained_volume_m3", "entrained_work_J", "entrained_heat_J"):
+        run.series[name][:] = 0.0
+    figure = FIGURES["entrainment"].plot(run)
+    for panel in ("(b)", "(c)"):
+        assert "no entrainment" in texts(titled(figure, panel)) and not titled(figure, panel).lines

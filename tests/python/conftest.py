@@ -14,9 +14,11 @@ import pytest
 
 from thawslide import Run
 from thawslide.command_line import main
+from thawslide.key_numbers import key_numbers
 from thawslide.report_page import make_report
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # for `reproduction`
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))  # for `reproduction`
 
 TARGETS = """# reported values, made up
 quantity,time_s,value,unit,source
@@ -66,8 +68,23 @@ def history_columns(rows: int, dimension: int) -> dict[str, np.ndarray]:
     return columns
 
 
+def column_history(rows: int = 101) -> dict[str, np.ndarray]:
+    """Return the columns of a 2D history with band columns."""
+    columns = history_columns(rows, 2)
+    t = columns["time_s"]
+    return columns | {
+        "band_normal_pressure_Pa": np.full(rows, 1.0e6), "band_shear_Pa": 4.0e5 - 2.0e4 * t,
+        "band_thickness_m": np.full(rows, 0.55), "dilation_fraction": 0.003 * t, "band_max_temperature_C": 17.0 * t,
+        "band_max_pressure_ratio": 0.1 * t, "base_area_m2": np.full(rows, 1.0e6), "column_heat_J": -3e12 + 0.1e12 * t,
+        "column_intake_J": -3e12 - 0.1e12 * t, "column_drained_J": 0.05e12 * t, "column_steam_J": 0.15e12 * t,
+        "column_left_J": np.zeros(rows), "column_water_kg": 3e9 + 1e7 * t, "column_intake_kg": 3e9 + 4e7 * t,
+        "column_drained_kg": 2e7 * t, "column_steam_kg": 1e7 * t, "column_left_kg": np.zeros(rows),
+        "column_water_residual_kg": 1e-3 * t, "column_opening_m3": 50.0 * t, "column_void_m3": 2e4 - 100.0 * t,
+    }  # fmt: skip
+
+
 def write_history(path: Path, columns: dict[str, np.ndarray]) -> None:
-    """Write history.csv: the header, one line a row, shortest round-trip numbers."""
+    """Write a table: the header, one line a row, shortest round-trip numbers."""
     lines = [",".join(columns)]
     lines += [",".join(repr(float(value)) for value in row) for row in zip(*columns.values(), strict=True)]
     path.write_text("\n".join(lines) + "\n")
@@ -76,8 +93,7 @@ def write_history(path: Path, columns: dict[str, np.ndarray]) -> None:
 def write_snapshot(path: Path, time: float, dimension: int) -> None:
     """Write one snapshot: a block of 20 x 4 particles of 1 m, moved 12 m/s along the slope."""
     along, up = (grid.ravel() for grid in np.meshgrid(np.arange(0.5, 20.0), np.arange(0.5, 4.0)))
-    n = len(along)
-    x = 20.0 + along + 12.0 * time
+    x, n = 20.0 + along + 12.0 * time, len(along)
     z, across = ground(x) + up, np.arange(n) % 3 + 0.5
     points = np.stack([x, z, np.zeros(n)] if dimension == 2 else [x, across, z], axis=1)
     velocity = np.zeros((n, 3))
@@ -100,6 +116,19 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
             group.create_dataset(f"PointData/{name}", data=values).attrs["unit"] = unit
 
 
+def snapshot_file(folder: Path, number: int) -> Path:
+    return folder / "snapshots" / f"{number:06d}.vtkhdf"
+
+
+def change_snapshot(folder: Path, number: int, rows: Any = slice(None), points: Any = None, **fields: Any) -> None:
+    """Replace the points and fields of some particles of a snapshot."""
+    with h5py.File(snapshot_file(folder, number), "r+") as file:
+        if points is not None:
+            file["VTKHDF/Points"][rows] = points
+        for name, values in fields.items():
+            file[f"VTKHDF/PointData/{name}"][rows] = values
+
+
 def edit(path: Path, old: str, new: str) -> None:
     text = path.read_text()
     assert old in text
@@ -118,6 +147,11 @@ def update_facts(folder: Path, **facts: Any) -> None:
 def page_of(folder: Path, *names: str) -> str:
     """Return the page of a run with the figure `motion` or those named."""
     return make_report(Run(folder), names=names or ["motion"], dpi=50).page.read_text(encoding="utf-8")
+
+
+def numbers(run: Run) -> dict[str, tuple[str, str]]:
+    """Return values and remarks of the key numbers."""
+    return {row.words: (row.value, row.remark) for row in key_numbers(run)}
 
 
 Fails = Callable[[list[str], str], None]
@@ -178,11 +212,9 @@ def make_run(tmp_path: Path, snapshots_of: Callable[[int, int], Path]) -> MakeRu
         write_history(folder / "history.csv", history_columns(rows, dimension) | (history or {}))
         if terrain:
             x = np.linspace(0.0, 200.0, 21)
-            rows_of_terrain = "".join(f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), ground(x).tolist(), strict=True))
-            (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows_of_terrain)
-        stages = {"seconds_per_stage": {"momentum_to_grid": 1.25}}
-        of_run = {"version": "0.1.0", "threads": 2, "particle_steps_per_second": 3.1e6} | stages
-        write_facts(folder, **(of_run if facts is None else facts))
+            write_history(folder / "terrain.csv", {"distance_m": x, "terrain_elevation_m": ground(x)})
+        of_run = {"version": "0.1.0", "threads": 2, "particle_steps_per_second": 3.1e6}
+        write_facts(folder, **(of_run | {"seconds_per_stage": {"momentum_to_grid": 1.25}} if facts is None else facts))
         return folder
 
     return make

@@ -1,20 +1,20 @@
 """Contents of figures: data of the run, units and terrain; and figures of runs with little data."""
 
 import re
+import struct
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, edit, ground, history_columns, update_facts, write_history
-from map_runs import plotted
+from conftest import MakeRun, change_snapshot, column_history, edit, ground, history_columns, numbers, write_history
+from figure_parts import line, plotted, texts, titled
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from matplotlib.transforms import Bbox
 
+from reproduction import lamplugh
 from reproduction.bars import bars
 from thawslide import NotInRunError, Run
 from thawslide.band_pass import band_passed
@@ -23,28 +23,13 @@ from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, norm
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.moments import chosen_snapshots
 from thawslide.figures.snapshots import Zone, velocity
-from thawslide.figures.style import TIME_LABEL
+from thawslide.figures.style import COLUMN_WIDTH, TIME_LABEL, without_title
 from thawslide.figures.window import fit
 from thawslide.number_text import prefixed
-from thawslide.time_reference import time_of_speed
+from thawslide.report_page import make_report
 
 SCALE = re.compile("true scale|vertical exaggeration|particles outside")
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
-
-
-def titled(figure: Figure, start: str) -> Axes:
-    (found,) = [axes for axes in figure.axes if axes.get_title(loc="left").startswith(start)]
-    return found
-
-
-def line(axes: Axes, label: str) -> np.ndarray:
-    """Return x and y of the one line with this label, shape (2, n)."""
-    (found,) = [line for line in axes.lines if line.get_label() == label]
-    return np.array(found.get_data(), dtype=float)
-
-
-def texts(axes: Axes) -> list[str]:
-    return [text.get_text() for text in axes.texts]
 
 
 def legend_notes(axes: Axes) -> list[str]:
@@ -60,13 +45,10 @@ def particles(axes: Axes) -> PolyCollection:
     return found
 
 
-def centres(axes: Axes) -> np.ndarray:
-    """Return the centres of the particles of a panel, shape (n, 2)."""
-    return np.array([(0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)) for b in extents(axes)])
-
-
-def extents(axes: Axes) -> list[Bbox]:
-    return [path.get_extents() for path in particles(axes).get_paths()]
+def centres_and_sizes(axes: Axes) -> tuple[np.ndarray, np.ndarray]:
+    """Return centres and sizes of the particles of a panel, shape (n, 2)."""
+    low, high = np.array([path.get_extents().get_points() for path in particles(axes).get_paths()]).swapaxes(0, 1)
+    return 0.5 * (low + high), high - low
 
 
 @pytest.mark.parametrize(
@@ -94,9 +76,10 @@ def test_snapshot_panels_have_particles_of_their_size_on_the_terrain(make_run: M
     run = Run(make_run())
     figure = FIGURES["velocity"].plot(run)
     panel, shot = titled(figure, "(b)"), run.snapshot(4)
-    np.testing.assert_allclose(centres(panel), shot.points[:, :2])
+    centres, sizes = centres_and_sizes(panel)
+    np.testing.assert_allclose(centres, shot.points[:, :2])
     # Cubes of 1 m on cells of 2 m: gaps narrower than a cell are closed.
-    np.testing.assert_allclose([(b.width, b.height) for b in extents(panel)], [(2.0, 1.0)] * len(shot.points))
+    np.testing.assert_allclose(sizes, [(2.0, 1.0)] * len(shot.points))
     (ground_line,) = [found for found in panel.lines if len(found.get_xdata()) == 21]
     np.testing.assert_allclose(ground_line.get_ydata(), ground(np.asarray(ground_line.get_xdata(), dtype=float)))
     assert any(isinstance(c, FillBetweenPolyCollection) for c in panel.collections)
@@ -112,34 +95,27 @@ def test_block_on_a_tilted_plane_is_drawn_once(make_run: MakeRun) -> None:
     folder = make_run(times="[0.0, 4.0]", case_keys="gravity_tilt = 30.0\n")
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n0.0,0.0\n200.0,0.0\n")
     for number in (0, 4):
-        with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
-            points = file["VTKHDF/Points"][:]
-            points[:, 1] = 1.55 * (points[:, 1] - ground(points[:, 0]) - 0.5)
-            file["VTKHDF/Points"][:] = points
-    figure = FIGURES["velocity"].plot(Run(folder))
-    found = {axes.get_ylabel() for axes in figure.axes}
-    assert "height above\nslope (m)" in found
-    assert not found & {"height above\nterrain (m)", "elevation (m)"}
+        x, y, z = Run(folder).snapshot(number).points.T
+        change_snapshot(folder, number, points=np.stack([x, 1.55 * (y - ground(x) - 0.5), z], axis=1))
+    found = {axes.get_ylabel() for axes in FIGURES["velocity"].plot(Run(folder)).axes}
+    assert "height above\nslope (m)" in found and not found & {"height above\nterrain (m)", "elevation (m)"}
 
 
 def test_strips_have_heights_and_exaggeration_and_the_overview_the_range_of_each_panel(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].plot(Run(make_run()))
+    figure = plotted("velocity", make_run())
     strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
-    np.testing.assert_allclose(np.unique(np.round(centres(strips[1])[:, 1], 9)), [0.5, 1.5, 2.5, 3.5])
+    np.testing.assert_allclose(np.unique(np.round(centres_and_sizes(strips[1])[0][:, 1], 9)), [0.5, 1.5, 2.5, 3.5])
     for axes in strips:
         width, height = figure.get_size_inches() * axes.get_position().size
         (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
         times = (right - left) / width / ((high - low) / height)
         assert texts(axes) == [f"vertical exaggeration {times:.2g}×"]
-    overview = titled(figure, "whole profile")
-    title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s"
-    assert overview.get_title(loc="left") == title
+    assert titled(figure, "whole profile, true scale; grey: t = 0 s, red: t = 7 s")
     (bars,) = [axes for axes in figure.axes if "range of each panel" in axes.get_xlabel()]
     assert bars.get_xlabel().startswith("distance (m)")
-    shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
-    assert tuple(shown) == pytest.approx(titled(figure, "(b)").get_xlim())
-    assert tuple(np.asarray(bars.lines[3].get_xdata(), dtype=float)) == pytest.approx((68.5, 87.5))
+    assert bars.lines[2].get_xdata() == pytest.approx(titled(figure, "(b)").get_xlim())
+    assert bars.lines[3].get_xdata() == pytest.approx((68.5, 87.5))
 
 
 def test_notes_on_scale_and_particles_are_between_panels_and_titles(make_run: MakeRun, map_run: Path) -> None:
@@ -160,24 +136,14 @@ def test_notes_on_scale_and_particles_are_between_panels_and_titles(make_run: Ma
                 assert all(each.get_window_extent().y0 >= note.y1 for each in shown), (name, text)
 
 
-def test_without_terrain_there_is_no_fill_and_no_strip(make_run: MakeRun) -> None:
-    figure = FIGURES["temperature"].plot(Run(make_run(terrain=False)))
-    assert not any("above" in axes.get_ylabel() for axes in figure.axes)
-    for axes in figure.axes:
+def test_three_dimensions_are_projected_and_without_terrain_there_is_no_fill(make_run: MakeRun) -> None:
+    for axes in plotted("temperature", make_run(terrain=False)).axes:
+        assert "above" not in axes.get_ylabel()
         assert not any(isinstance(c, FillBetweenPolyCollection) for c in axes.collections)
-
-
-def test_three_dimensions_are_projected_from_the_side(make_run: MakeRun) -> None:
-    run = Run(make_run(dimension=3))
-    panel = titled(FIGURES["velocity"].plot(run), "(b)")
-    points = run.snapshot(4).points
+    run = Run(make_run(name="space", dimension=3))
+    panel, points = titled(FIGURES["velocity"].plot(run), "(b)"), run.snapshot(4).points
     order = np.argsort(-points[:, 1], kind="stable")  # distant ones first
-    np.testing.assert_allclose(centres(panel)[:, 1], points[order, 2])
-
-
-def test_times_with_a_common_snapshot_have_one_panel(make_run: MakeRun) -> None:
-    shots = chosen_snapshots(Run(make_run(times="[0.0, 8.9, 9.1, 500.0]")))
-    assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
+    np.testing.assert_allclose(centres_and_sizes(panel)[0][:, 1], points[order, 2])
 
 
 def test_ticks_are_round_and_prefixes_give_numbers_below_1000() -> None:
@@ -187,38 +153,31 @@ def test_ticks_are_round_and_prefixes_give_numbers_below_1000() -> None:
     label_bar(bar, norm)
     assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
     assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
-    assert prefixed([999.0], "Pa") == (1.0, "Pa")
-    assert prefixed([np.nan], "J") == (1.0, "J")
+    assert (prefixed([999.0], "Pa"), prefixed([np.nan], "J")) == ((1.0, "Pa"), (1.0, "J"))
 
 
 def test_window_exaggerates_only_long_flat_sections() -> None:
-    steep = fit((0.0, 1000.0), (0.0, 1000.0), 2.0, None)
-    assert steep.exaggeration == 1
-    assert steep.right - steep.left == pytest.approx(2.0 * (steep.top - steep.bottom))
-    flat = fit((0.0, 8000.0), (0.0, 200.0), 2.0, None)
-    assert flat.exaggeration == 10  # 9280 m over 260 m in a box of 2: 17.8 times would fill it
-    assert flat.note() == "vertical exaggeration 10×"
-    assert flat.right - flat.left == pytest.approx(2.0 * 10 * (flat.top - flat.bottom))
+    for length, height, exaggeration in (1000.0, 1000.0, 1), (8000.0, 200.0, 10):
+        found = fit((0.0, length), (0.0, height), 2.0, None)  # 17.8 times would fill the box
+        assert found.exaggeration == exaggeration
+        assert found.right - found.left == pytest.approx(2.0 * exaggeration * (found.top - found.bottom))
+    assert found.note() == "vertical exaggeration 10×"
     shifted = fit((0.0, 100.0), (0.0, 100.0), 4.0, (-10.0, 1000.0))
-    assert shifted.left == -10.0
-    assert shifted.right - shifted.left == pytest.approx(4.0 * 130.0)
+    assert (shifted.left, shifted.right - shifted.left) == (-10.0, pytest.approx(4.0 * 130.0))
 
 
 def test_colour_range_excludes_outliers() -> None:
     low, high, extend = colour_range(np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]]), from_zero=True)
-    assert (low, extend) == (0.0, "max")
-    assert 0.99 < high <= 1.0
+    assert (low, extend) == (0.0, "max") and 0.99 < high <= 1.0
     low, high, extend = colour_range(np.full(5, -10.0), from_zero=False)
-    assert low < -10.0 < high
-    assert extend == "neither"
+    assert low < -10.0 < high and extend == "neither"
     assert colour_range(np.zeros(5), from_zero=True) == (0.0, 0.5, "neither")
     assert colour_range(np.full(3, np.nan), from_zero=False) == (0.0, 1.0, "neither")
 
 
 def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None:
     run = Run(make_run())
-    figure = FIGURES["motion"].plot(run)
-    speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
+    speed, distance = FIGURES["motion"].plot(run).axes
     time, front = run.series["time_s"], run.series["front_position_m"]
     for axes, label, expected in (
         (speed, "mean (mass-weighted)", [time, run.series["mean_velocity_m_s"]]),
@@ -229,20 +188,18 @@ def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None
         (distance, "reported runout distance: field", [[10.0], [160.0]]),
     ):
         np.testing.assert_array_equal(line(axes, label), expected)
+    assert [axes.get_title(loc="left")[:7] for axes in (speed, distance)] == ["(a) spe", "(b) dis"]
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("speed (m/s)", "distance (m)")
     assert (speed.get_xlabel(), distance.get_xlabel()) == (TIME_LABEL, TIME_LABEL)
-    figure = FIGURES["motion"].plot(Run(make_run(name="bare", targets=False)))
+    figure = plotted("motion", make_run(name="bare", targets=False))
     labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
-    assert len(labels) == 5
-    assert not any("reported" in label for label in labels)
+    assert len(labels) == 5 and not any("reported" in label for label in labels)
 
 
 def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
-    folder = make_run()
-    moving = titled(FIGURES["motion"].plot(Run(folder)), "(a) speed")
-    assert len(line(moving, "maximum")[0]) == len(Run(folder).series["time_s"])
-    update_facts(folder, at_rest=True, rest_since_s=6.0)
-    run = Run(folder)
+    run = Run(make_run(facts={"status": "done", "at_rest": True, "rest_since_s": 6.0}))
+    moving = titled(plotted("motion", make_run(name="moving")), "(a) speed")
+    assert len(line(moving, "maximum")[0]) == run.series.rows
     before = run.series["time_s"] <= 6.0
     assert 0 < before.sum() < len(before)
     maximum = line(titled(FIGURES["motion"].plot(run), "(a) speed"), "maximum, until rest")
@@ -255,12 +212,13 @@ def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun
     run = Run(make_run(rows=11, history={"front_position_m": known, "runout_m": known}))
     front = line(titled(FIGURES["motion"].plot(run), "(b) distance"), "front travel distance")[1]
     np.testing.assert_allclose(front, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
+    assert numbers(run)["Runout distance L"] == ("160 m", "front at 10 s minus initial rear")
+    assert numbers(run)["Front travel distance"] == ("96 m", "front at 10 s minus front at 2 s, the first known")
 
 
 def test_reported_values_outside_the_run_are_counted_in_the_legend(make_run: MakeRun) -> None:
     until_5_s = {name: values[:51] for name, values in history_columns(101, 2).items()}
-    figure = FIGURES["motion"].plot(Run(make_run(history=until_5_s)))
-    speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
+    speed, distance = plotted("motion", make_run(history=until_5_s)).axes
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0], [9.0]])
     assert legend_notes(speed) == ["1 reported value after the end of the run"]
     assert legend_notes(distance) == [
@@ -268,10 +226,11 @@ def test_reported_values_outside_the_run_are_counted_in_the_legend(make_run: Mak
         "1 reported value of runout distance after the end of the run",
     ]
     targets = "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
-    (speed, _) = FIGURES["motion"].plot(Run(make_run(name="outside", targets=targets))).axes
+    speed, _ = plotted("motion", make_run(name="outside", targets=targets)).axes
     assert not [marks for marks in speed.lines if str(marks.get_label()).startswith("reported")]
-    note = "1 reported value before the start of the run, 1 reported value after the end of the run"
-    assert legend_notes(speed) == [note]
+    assert legend_notes(speed) == [
+        "1 reported value before the start of the run, 1 reported value after the end of the run"
+    ]
 
 
 def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> None:
@@ -279,25 +238,25 @@ def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> 
     figure = FIGURES["force"].plot(run)
     size, parts = titled(figure, "(a)"), titled(figure, "(b)")
     x, y = run.series["seismic_force_x_N"], run.series["seismic_force_y_N"]
-    np.testing.assert_allclose(line(size, "run")[1] * 1e9, np.hypot(x, y))
-    np.testing.assert_array_equal(line(size, "reported maximum 280 GN: seismic")[1], [280.0, 280.0])
-    t = run.series["time_s"]
-    passed = [band_passed(t, part, 2.0, 8.0) for part in (x, y)]
-    np.testing.assert_allclose(line(size, "run, band-pass 2 to 8 s")[1] * 1e9, np.hypot(*passed))
-    np.testing.assert_array_equal(line(size, "reported maximum 110 GN (2 to 8 s): waves")[1], [110.0, 110.0])
-    np.testing.assert_allclose(line(parts, "x (along)")[1] * 1e9, x)
-    np.testing.assert_allclose(line(parts, "y (up)")[1] * 1e9, y)
+    passed = [band_passed(run.series["time_s"], part, 2.0, 8.0) for part in (x, y)]
+    for axes, label, expected in (
+        (size, "run", np.hypot(x, y)), (size, "run, band-pass 2 to 8 s", np.hypot(*passed)), (parts, "x (along)", x),
+        (parts, "y (up)", y),
+    ):  # fmt: skip
+        np.testing.assert_allclose(line(axes, label)[1] * 1e9, expected)
+    for maximum, source in (280.0, "280 GN: seismic"), (110.0, "110 GN (2 to 8 s): waves"):
+        np.testing.assert_array_equal(line(size, f"reported maximum {source}")[1], [maximum, maximum])
     assert size.get_ylabel() == "force (GN)"
     (strain,) = titled(figure, "(c)").lines
     np.testing.assert_array_equal(strain.get_ydata(), run.series["mean_plastic_strain"])
-    figure = FIGURES["force"].plot(Run(make_run(name="space", dimension=3)))
-    assert [found.get_label() for found in titled(figure, "(b)").lines] == ["x (along)", "y (across)", "z (up)"]
+    space = titled(plotted("force", make_run(name="space", dimension=3)), "(b)")
+    assert [found.get_label() for found in space.lines] == ["x (along)", "y (across)", "z (up)"]
 
 
 def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None:
-    bare = titled(FIGURES["force"].plot(Run(make_run(name="bare", targets=False))), "(a)")
+    bare = titled(plotted("force", make_run(name="bare", targets=False)), "(a)")
     assert [found.get_label() for found in bare.lines] == ["run"]
-    thin = titled(FIGURES["force"].plot(Run(make_run(name="thin", width=0.0))), "(a)")
+    thin = titled(plotted("force", make_run(name="thin", width=0.0)), "(a)")
     assert thin.get_ylabel() == "force (GN/m of width)"
     assert [found.get_label() for found in thin.lines] == ["run", "run, band-pass 2 to 8 s"]
     assert texts(thin) == ["reported force not shown: no case.width"]
@@ -320,15 +279,13 @@ def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
 
 
 def test_empty_panels_of_the_band_state_the_reason(make_run: MakeRun) -> None:
-    folder, columns = make_run(), history_columns(11, 2)
-    del columns["band_saturation"]
-    columns["band_temperature_C"][:] = np.nan
-    columns["band_friction_coefficient"][:] = np.nan
-    write_history(folder / "history.csv", columns)
-    figure = FIGURES["band"].plot(Run(folder))
-    assert texts(titled(figure, "(a)")) == ["no particles in the band"]
-    assert texts(titled(figure, "(c)")) == ["no column band_saturation in history.csv"]
-    assert texts(titled(figure, "(d)")) == ["no contact"]
+    unknown = {name: np.full(101, np.nan) for name in ("band_temperature_C", "band_friction_coefficient")}
+    folder = make_run(history=unknown)
+    edit(folder / "history.csv", "band_saturation", "band_other")
+    figure = plotted("band", folder)
+    found = {letter: texts(titled(figure, f"({letter})")) for letter in "acd"}
+    no_column = ["no column band_saturation in history.csv"]
+    assert found == {"a": ["no particles in the band"], "c": no_column, "d": ["no contact"]}
 
 
 def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) -> None:
@@ -348,20 +305,18 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
 
 
 def test_small_energy_terms_are_named_below_the_figure(make_run: MakeRun) -> None:
-    time = np.linspace(0.0, 10.0, 101)
     for size, is_shown in ((0.0049, False), (0.0051, True)):  # of the potential energy
-        folder = make_run(name=f"run {is_shown}", history={"damping_J": size * 1e12 * time})
-        figure = FIGURES["energy"].plot(Run(folder))
+        damping = {"damping_J": np.linspace(0.0, size * 1e13, 101)}
+        figure = plotted("energy", make_run(name=f"run {is_shown}", history=damping))
         assert ("damping" not in figure.get_supxlabel()) == is_shown
         assert ("damping" in {found.get_label() for found in titled(figure, "(a)").lines}) == is_shown
 
 
 def test_one_row_is_a_marker_without_a_residual(make_run: MakeRun) -> None:
-    run = Run(make_run(rows=1))
-    assert relative_residual(run, "mechanical_residual_J") is None
-    assert texts(titled(FIGURES["energy"].plot(run), "(a)")) == ["no change of any term"]
-    speed = titled(FIGURES["motion"].plot(Run(make_run(name="bare", rows=1, targets=False))), "(a)")
-    assert [found.get_marker() for found in speed.lines] == ["o", "o"]
+    folder = make_run(rows=1, targets=False)
+    assert relative_residual(Run(folder), "mechanical_residual_J") is None
+    assert texts(titled(plotted("energy", folder), "(a)")) == ["no change of any term"]
+    assert [found.get_marker() for found in titled(plotted("motion", folder), "(a)").lines] == ["o", "o"]
 
 
 @pytest.mark.parametrize("name", ["motion", *SNAPSHOT_FIGURES, "force", "band", "energy"])
@@ -387,13 +342,11 @@ def test_scale_of_high_temperatures_is_logarithmic_up_to_the_maximum(make_run: M
     norm, extend = normalization(values, TEMPERATURE)
     assert (norm.vmin, norm.vmax, extend) == (-10.0, 5000.0, "neither")
     # Decades have equal and sufficient lengths.
-    ends = np.asarray(norm(np.array([10.0, 100.0, 1000.0])))
-    assert ends[2] - ends[1] == pytest.approx(ends[1] - ends[0])
-    assert ends[1] - ends[0] > 0.15
+    first, second = np.diff(norm(np.array([10.0, 100.0, 1000.0])))
+    assert second == pytest.approx(first) and first > 0.15
     folder = make_run()
-    for path in Run(folder).snapshot_files:
-        with h5py.File(path, "r+") as file:
-            file["VTKHDF/PointData/temperature"][:3] = 4321.0
+    for number in range(11):
+        change_snapshot(folder, number, slice(3), temperature=4321.0)
     figure = FIGURES["temperature"].plot(Run(folder))
     figure.canvas.draw()
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("temperature (°C)")]
@@ -417,25 +370,66 @@ def test_bars_mark_the_endings_of_runs() -> None:
     figure = bars(["the case", "moving", "failed", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
     marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
     assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
-    (legend,) = figure.legends
-    words = [text.get_text() for text in legend.get_texts()]
-    assert words[1] == "failed run: no value"
-    assert len(words) == 4  # no entry for endings that do not occur
-
-
-def test_time_of_speed_is_interpolated_between_rows(make_run: MakeRun) -> None:
-    run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: 8 m/s at 3.0409 s
-    assert time_of_speed(run, 8.0) == pytest.approx(10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0)), abs=2e-3)
-    assert np.isnan(time_of_speed(run, 13.0))
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert words[1] == "failed run: no value" and len(words) == 4  # no entry for endings that do not occur
 
 
 def test_runs_that_split_particles_show_the_velocities_of_the_file(make_run: MakeRun) -> None:
     folder = make_run()
     shown = chosen_snapshots(Run(folder))[1]["velocity"]
-    case = folder / "case.toml"
-    case.write_text(case.read_text() + "\n[mechanics]\nsplit_stretched = true\n")
+    edit(folder / "case.toml", "[grid]\n", "[mechanics]\nsplit_stretched = true\n[grid]\n")
     run = Run(folder)
     shot = chosen_snapshots(run)[1]
-    index = int(np.argmin(np.abs(run.times - shot.time)))
-    np.testing.assert_array_equal(shot["velocity"], run.snapshot(index)["velocity"])
+    np.testing.assert_array_equal(shot["velocity"], run.snapshot(time=shot.time)["velocity"])
     assert not np.array_equal(shown, shot["velocity"]), "otherwise those of displacement"
+
+
+def check(figure: Figure) -> None:
+    assert 4.0 <= figure.get_size_inches()[0] <= COLUMN_WIDTH
+    figure.draw_without_rendering()
+    visible = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
+    assert [text.get_text() for text in visible if text.get_fontsize() < 6.0] == []  # points
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    letters = [found[1] for title in titles if (found := re.match(r"\((.)\) ", title))]
+    assert letters == list("abcdefghijklmnopqrstuvwxyz"[: len(letters)])
+
+
+def test_figures_have_the_width_of_two_columns(make_run: MakeRun, map_run: Path) -> None:
+    folder = make_run()
+    names = [name for name, kind in FIGURES.items() if kind.suits(Run(folder))]
+    assert len(names) > 5
+    for name in names:
+        check(plotted(name, folder))
+    columns = make_run(name="columns", history=column_history())
+    for name in ("band", "water"):
+        check(plotted(name, columns))
+    for name in ("extent_maps", "slide_speed", "cross_sections", "impact_maps"):
+        check(plotted(name, map_run))
+
+
+def test_figures_without_title_have_larger_panels(make_run: MakeRun) -> None:
+    figure = FIGURES["band"].plot(Run(make_run()))
+    assert figure.get_suptitle()
+    figure.draw_without_rendering()
+    high = figure.axes[0].get_position().y1
+    assert without_title(figure).get_suptitle() == ""
+    figure.draw_without_rendering()
+    assert figure.axes[0].get_position().y1 > high, "the panels use the space of the title"
+
+
+@pytest.mark.parametrize("name", ["motion", "velocity"])
+def test_images_have_150_dots_per_inch(make_run: MakeRun, name: str) -> None:
+    image = make_report(Run(make_run()), names=[name]).figures[name].read_bytes()
+    width = struct.unpack(">I", image[16:20])[0]  # of a PNG's first block
+    assert width == int(150 * COLUMN_WIDTH)
+
+
+def test_profile_of_a_deposit_states_its_exaggeration(make_run: MakeRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
+    monkeypatch.setattr(lamplugh, "zones", lambda run: [])
+    figure = lamplugh.figure_deposit({"lamplugh": Run(make_run())})
+    section = figure.axes[0]
+    width, height = figure.get_size_inches() * section.get_position().size
+    (left, right), (low, top) = section.get_xlim(), section.get_ylim()
+    times = 1e3 * (right - left) / width * height / (top - low)
+    assert section.get_title(loc="left") == f"(a) profile, vertical exaggeration {times:.2g}×"

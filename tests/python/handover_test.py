@@ -4,43 +4,33 @@ import csv
 import json
 from pathlib import Path
 
+import map_runs
 import numpy as np
 import pytest
 import rasterio
-from conftest import update_facts
-from map_runs import (
-    CELL,
-    COLUMNS,
-    LENGTH,
-    MIDDLE,
-    ROWS,
-    SOUTH,
-    SPEED,
-    THICKNESS,
-    WEST,
-    WIDTH,
-    centres,
-    ground,
-    slab,
-    write_map,
-    write_map_run,
-    write_particles,
-)  # fmt: skip
+from conftest import snapshot_file, update_facts
+from map_runs import CELL, COLUMNS, LENGTH, MIDDLE, ROWS, SOUTH, SPEED, THICKNESS, VOLUME, WEST, ground, write_map
 
-from thawslide import Run
-from thawslide.errors import ReportError
+from thawslide import ReportError, Run
 from thawslide.handover import assets_hit, terrain_after, write_dtopo, write_hydrographs
 from thawslide.handover.command import assets, export, terrain
 from thawslide.handover.hydrographs import hydrographs
 from thawslide.maps import read_map
 
-VOLUME = LENGTH * WIDTH * THICKNESS  # m3
+X, Y = map_runs.centres()
+AFTER = ground(X, Y) + map_runs.slab(X, Y, 10.0)
 
 
 @pytest.fixture
-def run(tmp_path: Path) -> Run:
-    write_map_run(tmp_path / "run", snapshots=6)
-    return Run(tmp_path / "run")
+def run(map_run: Path) -> Run:
+    return Run(map_run)
+
+
+@pytest.fixture
+def dem(tmp_path: Path) -> Path:
+    """Return the file of the terrain."""
+    write_map(tmp_path / "before.tif", ground(X, Y))
+    return tmp_path / "before.tif"
 
 
 def with_placement(run: Run, *placements: str) -> Run:
@@ -53,8 +43,7 @@ def with_placement(run: Run, *placements: str) -> Run:
 
 def test_terrain_of_the_run_gains_the_deposit(run: Run, tmp_path: Path) -> None:
     after = terrain_after(run)
-    x, y = centres()
-    np.testing.assert_allclose(after.heights, ground(x, y) + slab(x, y, 10.0), atol=1e-9)
+    np.testing.assert_allclose(after.heights, AFTER, atol=1e-9)
     assert after.deposit == pytest.approx(VOLUME) and after.deposit_of_run == pytest.approx(VOLUME)
     assert after.removed == 0.0
     after.write(tmp_path / "after.tif")
@@ -63,43 +52,34 @@ def test_terrain_of_the_run_gains_the_deposit(run: Run, tmp_path: Path) -> None:
     assert "31287" in written.crs
 
 
-def test_release_is_cut_out_of_a_given_dem(run: Run, tmp_path: Path) -> None:
-    x, y = centres()
-    write_map(tmp_path / "before.tif", ground(x, y) + slab(x, y, 0.0))
-    after = terrain_after(with_placement(run, "cut"), tmp_path / "before.tif")
-    np.testing.assert_allclose(after.heights, ground(x, y) + slab(x, y, 10.0), atol=1e-9)
-    assert after.removed == pytest.approx(VOLUME)
-
-
-def test_release_on_top_leaves_a_given_dem(run: Run, tmp_path: Path) -> None:
-    x, y = centres()
-    write_map(tmp_path / "before.tif", ground(x, y))
-    after = terrain_after(with_placement(run, "on_top", "on_top"), tmp_path / "before.tif")
-    np.testing.assert_allclose(after.heights, ground(x, y) + slab(x, y, 10.0), atol=1e-9)
+@pytest.mark.parametrize(("placements", "removed"), [(["cut"], VOLUME), (["on_top", "on_top"], 0.0)])
+def test_release_is_cut_out_of_a_given_dem_or_on_top(
+    run: Run, tmp_path: Path, placements: list[str], removed: float
+) -> None:
+    write_map(tmp_path / "before.tif", ground(X, Y) + (map_runs.slab(X, Y, 0.0) if removed else 0.0))
+    after = terrain_after(with_placement(run, *placements), tmp_path / "before.tif")
+    np.testing.assert_allclose(after.heights, AFTER, atol=1e-9)
+    assert after.removed == pytest.approx(removed)
 
 
 def test_dem_on_other_points_keeps_the_volume(run: Run, tmp_path: Path) -> None:
-    x, y = centres(2 * COLUMNS, 2 * ROWS, 0.5 * CELL)
+    x, y = map_runs.centres(2 * COLUMNS, 2 * ROWS, 0.5 * CELL)
     write_map(tmp_path / "fine.tif", ground(x, y), cell=0.5 * CELL)
     after = terrain_after(run, tmp_path / "fine.tif")
     assert after.deposit == pytest.approx(VOLUME, rel=1e-9)
     assert np.max(after.heights - ground(x, y)) == pytest.approx(THICKNESS)
 
 
-def test_bodies_of_both_placements_need_the_terrain_of_the_run(run: Run, tmp_path: Path) -> None:
-    x, y = centres()
-    write_map(tmp_path / "before.tif", ground(x, y))
-    with pytest.raises(ReportError, match="Omit --dem to use the terrain of the run"):
-        terrain_after(with_placement(run, "cut", "on_top"), tmp_path / "before.tif")
-
-
-def test_dem_elsewhere_is_refused(run: Run, tmp_path: Path) -> None:
-    x, y = centres()
-    write_map(tmp_path / "before.tif", ground(x, y))
-    with rasterio.open(tmp_path / "before.tif", "r+") as file:
+def test_dems_elsewhere_in_another_system_and_for_both_placements_are_refused(run: Run, dem: Path) -> None:
+    with rasterio.open(dem, "r+") as file:
         file.transform = rasterio.Affine(CELL, 0.0, WEST + 1e4, 0.0, -CELL, SOUTH)
     with pytest.raises(ReportError, match="does not overlap the maps of the run"):
-        terrain_after(run, tmp_path / "before.tif")
+        terrain_after(run, dem)
+    write_map(dem, ground(X, Y), crs="EPSG:31254")
+    with pytest.raises(ReportError, match="another coordinate reference system than the run"):
+        terrain_after(run, dem)
+    with pytest.raises(ReportError, match="Omit --dem to use the terrain of the run"):
+        terrain_after(with_placement(run, "cut", "on_top"), dem)
 
 
 def test_moving_bottom_is_the_change_of_thickness(run: Run, tmp_path: Path) -> None:
@@ -122,11 +102,11 @@ def test_moving_bottom_is_the_change_of_thickness(run: Run, tmp_path: Path) -> N
     assert len(times) == 6 and grid.columns == COLUMNS
 
 
-def test_a_slide_at_rest_ends_the_moving_bottom_between_two_intervals(run: Run, tmp_path: Path) -> None:
+def test_a_moving_bottom_has_equal_intervals_and_ends_at_rest(run: Run, tmp_path: Path) -> None:
     for number, time in enumerate((0.0, 4.0, 8.0, 10.0)):
-        write_particles(run.folder / "snapshots" / f"{number:06d}.vtkhdf", time)
+        map_runs.write_particles(snapshot_file(run.folder, number), time)
     for number in (4, 5):
-        (run.folder / "snapshots" / f"{number:06d}.vtkhdf").unlink()
+        snapshot_file(run.folder, number).unlink()
     _, times = write_dtopo(Run(run.folder), tmp_path / "slide.tt3")
     np.testing.assert_array_equal(times, [0.0, 4.0, 8.0, 12.0])
     update_facts(run.folder, at_rest=False)
@@ -134,30 +114,20 @@ def test_a_slide_at_rest_ends_the_moving_bottom_between_two_intervals(run: Run, 
     with pytest.raises(ReportError, match="snapshots at unequal intervals"):
         write_dtopo(moving, tmp_path / "slide.tt3")
     np.testing.assert_array_equal(moving.times, [0.0, 4.0, 8.0, 10.0])
+    for number in (1, 2, 3):
+        snapshot_file(run.folder, number).unlink()
+    with pytest.raises(ReportError, match="a moving bottom needs two or more"):
+        write_dtopo(Run(run.folder), tmp_path / "one.tt3")
+    assert not (tmp_path / "one.tt3").exists()
 
 
-def test_a_dem_in_another_system_is_refused(run: Run, tmp_path: Path) -> None:
-    x, y = centres()
-    write_map(tmp_path / "before.tif", ground(x, y), crs="EPSG:31254")
-    with pytest.raises(ReportError, match="another coordinate reference system than the run"):
-        terrain_after(run, tmp_path / "before.tif")
-
-
-def test_a_dem_of_a_part_of_the_deposit_has_a_note(run: Run, tmp_path: Path) -> None:
-    x, y = centres()
-    heights = ground(x, y)
+def test_a_dem_of_a_part_of_the_deposit_has_a_note(run: Run, dem: Path) -> None:
+    heights = ground(X, Y)
     heights[:, 30:] = np.nan  # the deposit begins at 260 m, the DEM ends at 300 m
-    write_map(tmp_path / "before.tif", heights)
-    after = terrain_after(run, tmp_path / "before.tif")
+    write_map(dem, heights)
+    after = terrain_after(run, dem)
     assert after.notes == ["note: the DEM covers 50 % of the deposit."]
     assert after.deposit == pytest.approx(0.5 * VOLUME)
-
-
-def test_one_snapshot_is_no_moving_bottom(tmp_path: Path) -> None:
-    write_map_run(tmp_path / "run", snapshots=1)
-    with pytest.raises(ReportError, match="a moving bottom needs two or more"):
-        write_dtopo(Run(tmp_path / "run"), tmp_path / "slide.tt3")
-    assert not (tmp_path / "slide.tt3").exists()
 
 
 def test_hydrographs_are_those_of_the_lines(run: Run, tmp_path: Path) -> None:
@@ -167,56 +137,43 @@ def test_hydrographs_are_those_of_the_lines(run: Run, tmp_path: Path) -> None:
     assert rows == [["time_s", "discharge_m3_s"], ["0.0", "0.0"], ["5.0", "-6480.0"], ["10.0", "0.0"]]
     (weir,) = hydrographs(run)
     assert weir.volume == -6480.0 * 5.0 and weir.peak == (0.0, 0.0)
-
-
-def test_run_without_lines_has_no_hydrographs(run: Run) -> None:
     (run.folder / "probes.csv").write_text("time_s,gate_thickness_m\n0,0\n")
     with pytest.raises(ReportError, match=r"Add \[probe\.NAME\] with a `line`"):
         hydrographs(Run(run.folder))
 
 
 def test_assets_have_the_values_of_the_slab(run: Run) -> None:
-    points = [("hut", WEST + 300.0, MIDDLE), ("barn", WEST + 300.0, SOUTH + 5.0)]
-    hut, barn = assets_hit(run, points=points)
+    hut, barn = assets_hit(run, points=[("hut", WEST + 300.0, MIDDLE), ("barn", WEST + 300.0, SOUTH + 5.0)])
     assert hut.max_pressure_kpa == pytest.approx(1900.0 * SPEED**2 * 1e-3)
     assert hut.max_thickness_m == THICKNESS and hut.max_speed_m_s == SPEED
     assert hut.arrival_time_s == pytest.approx((300.0 - 140.0) / SPEED, abs=CELL / SPEED)
     assert hut.is_hit and not barn.is_hit and np.isnan(barn.arrival_time_s)
-
-
-def write_polygons(path: Path, *properties: dict[str, str]) -> None:
-    """Write a file with the same polygon, from outside the path of the slab into it, for each set of attributes."""
-    west, south = WEST + 290.0, SOUTH
-    ring = [[west, south], [west + 30.0, south], [west + 30.0, MIDDLE], [west, MIDDLE], [west, south]]
-    system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::31287"}}
-    shape = {"type": "Polygon", "coordinates": [ring]}
-    features = [{"type": "Feature", "properties": each, "geometry": shape} for each in properties]
-    path.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": features}))
+    with pytest.raises(ReportError, match=r"hut: outside the maps of the run \(found x = 0"):
+        assets_hit(run, points=[("hut", 0.0, 0.0)])
 
 
 def test_polygon_has_the_largest_values_of_its_cells(run: Run, tmp_path: Path) -> None:
+    """Four polygons with different attributes reach from outside the path of the slab into it."""
+    west, south = WEST + 290.0, SOUTH
+    ring = [[west, south], [west + 30.0, south], [west + 30.0, MIDDLE], [west, MIDDLE], [west, south]]
+    system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::31287"}}
+    feature = {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [ring]}}
+    features = [feature | {"properties": each} for each in ({"name": "School"}, {"Name": "a\nb"}, {"name": ""}, {})]
     path = tmp_path / "assets.geojson"
-    write_polygons(path, {"name": "School"}, {"Name": "a\nb"}, {"name": ""}, {})
+    path.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": features}))
     found, *others = assets_hit(run, polygons=path)
     assert found.name == "School" and [each.name for each in others] == ["polygon 2", "polygon 3", "polygon 4"]
     assert found.max_thickness_m == THICKNESS
     assert found.arrival_time_s == pytest.approx((290.0 - 140.0) / SPEED, abs=CELL / SPEED)
 
 
-def test_asset_outside_the_maps_is_named(run: Run) -> None:
-    with pytest.raises(ReportError, match=r"hut: outside the maps of the run \(found x = 0"):
-        assets_hit(run, points=[("hut", 0.0, 0.0)])
-
-
 def test_commands_write_their_files(run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = str(run.folder)
     assert terrain([folder]) == 0 and (run.folder / "terrain-after.tif").is_file()
     assert terrain([folder]) == 2  # exists
-    assert terrain([folder, "--overwrite"]) == 0
-    assert export([folder]) == 2
+    assert terrain([folder, "--overwrite"]) == 0 and export([folder]) == 2
     assert export([folder, "--dtopo", str(tmp_path / "a.tt3"), "--hydrographs", str(tmp_path / "flow")]) == 0
-    assert assets([folder]) == 2
-    assert assets([folder, "--point", "hut"]) == 2
+    assert assets([folder]) == 2 and assets([folder, "--point", "hut"]) == 2
     capsys.readouterr()
     points = [f"hut,{WEST + 300.0},{MIDDLE}", f"barn,{WEST + 5.0},{SOUTH + 5.0}"]
     assert assets([folder, "--point", points[0], "--point", points[1]]) == 0

@@ -1,4 +1,4 @@
-"""Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east; parts of their figures."""
+"""Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east."""
 
 import sqlite3
 import struct
@@ -9,16 +9,11 @@ import h5py
 import numpy as np
 import rasterio
 from conftest import history_columns, write_facts, write_history
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
-
-from thawslide import Run
-from thawslide.figures import FIGURES
 
 WEST, SOUTH, CELL = 400_000.0, 380_000.0, 10.0
 COLUMNS, ROWS = 60, 30
 LENGTH, WIDTH, THICKNESS = 80.0, 60.0, 6.0  # of the slab [m]
+VOLUME = LENGTH * WIDTH * THICKNESS  # m3
 SPEED = 20.0  # m/s to the east
 MIDDLE = SOUTH + 150.0
 CRS = "EPSG:31287"
@@ -83,20 +78,14 @@ def write_maps(folder: Path, end: float) -> None:
     for time in times[::-1]:
         arrival[slab(x, y, time) > 0.0] = time
     for name, values, unit in (
-        ("terrain", ground(x, y), "m"),
-        ("release", slab(x, y, 0.0), "m"),
-        ("max_thickness", largest, "m"),
-        ("final_thickness", slab(x, y, end), "m"),
-        ("max_speed", SPEED * np.nan_to_num(touched), "m/s"),
-        ("arrival_time", arrival, "s"),
-        ("max_pressure", 1900.0 * SPEED**2 * np.nan_to_num(touched), "Pa"),
-        ("max_pressure_time", arrival, "s"),
+        ("terrain", ground(x, y), "m"), ("release", slab(x, y, 0.0), "m"), ("max_thickness", largest, "m"),
+        ("final_thickness", slab(x, y, end), "m"), ("max_speed", SPEED * np.nan_to_num(touched), "m/s"),
+        ("arrival_time", arrival, "s"), ("max_pressure", 1900.0 * SPEED**2 * np.nan_to_num(touched), "Pa"),
+        ("max_pressure_time", arrival, "s"), ("elevation_change", slab(x, y, end) - slab(x, y, 0.0), "m"),
         ("max_momentum_flux", THICKNESS * SPEED**2 * np.nan_to_num(touched), "m3/s2"),
-        ("elevation_change", slab(x, y, end) - slab(x, y, 0.0), "m"),
-        ("max_basal_temperature", touched * (-5.0 + 0.02 * (x - WEST)), "C"),
-        ("max_melt", np.zeros(x.shape), "m"),
+        ("max_basal_temperature", touched * (-5.0 + 0.02 * (x - WEST)), "C"), ("max_melt", np.zeros(x.shape), "m"),
         ("max_pore_pressure", 4e4 * np.nan_to_num(touched), "Pa"),
-    ):
+    ):  # fmt: skip
         write_map(folder / f"{name}.tif", values, unit, name.replace("_", " "))
     path = np.array([[WEST + 20.0, MIDDLE], [WEST + 580.0, MIDDLE]])
     write_layer(folder / "results.gpkg", "path", [line_blob(path, envelope=True)])
@@ -151,32 +140,3 @@ def write_map_run(folder: Path, snapshots: int) -> None:
     write_maps(folder / "maps", 10.0)
     for number, time in enumerate(np.linspace(0.0, 10.0, snapshots)):
         write_particles(folder / "snapshots" / f"{number:06d}.vtkhdf", float(time))
-
-
-def plotted(name: str, folder: Path) -> Figure:
-    """Plot a figure of a run by its name."""
-    figure = FIGURES[name].plot(Run(folder))
-    assert isinstance(figure, Figure)
-    return figure
-
-
-def maps_of(figure: Figure) -> list[Axes]:
-    """Return the panels that have a letter."""
-    return [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
-
-
-def field(axes: Axes) -> AxesImage:
-    """Return the field over the shaded terrain."""
-    shade, *fields = [image for image in axes.images if isinstance(image, AxesImage)]
-    assert shade.get_zorder() < fields[-1].get_zorder()
-    return fields[-1]
-
-
-def labels(figure: Figure) -> set[str]:
-    """Return the labels of the axes."""
-    return {label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label}
-
-
-def notes(figure: Figure) -> str:
-    """Return the notes of the figure in one line."""
-    return " ".join(" ".join(text.get_text().split()) for text in figure.texts)

@@ -1,27 +1,27 @@
-"""Times of snapshots in figures, and velocities from displacement."""
+"""Times of snapshots and of reported values in figures, and velocities from displacement."""
 
+import re
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_facts, write_history
+from conftest import ROOT, MakeRun, change_snapshot, column_history, history_columns, numbers, write_history
+from figure_parts import labels, line, maps_of, plotted, titled
 from matplotlib.colors import PowerNorm, to_rgba
+from matplotlib.figure import Figure
 
 from thawslide import Run
 from thawslide.figures import FIGURES
 from thawslide.figures.colours import THIN, painted_values
 from thawslide.figures.maximum_maps import _EXTENT, _norm
 from thawslide.figures.moments import chosen_snapshots, moments, shown_snapshot
+from thawslide.figures.style import TIME_LABEL
 from thawslide.maps import Maps
+from thawslide.targets import read_targets
 
 
-def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: np.ndarray | float) -> None:
-    with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
-        if points is not None:
-            file["VTKHDF/Points"][:] = points
-        for name, values in fields.items():
-            file[f"VTKHDF/PointData/{name}"][:] = values
+def times_of(run: Run, most: int | None = None) -> list[float]:
+    return [shot.time for shot in (chosen_snapshots(run) if most is None else chosen_snapshots(run, most=most))]
 
 
 def test_moments_are_fractions_of_the_displacement_without_times(make_run: MakeRun) -> None:
@@ -30,21 +30,22 @@ def test_moments_are_fractions_of_the_displacement_without_times(make_run: MakeR
     write_history(folder / "history.csv", columns | {"mean_displacement_m": displacement})
     run = Run(folder)
     assert moments(run) == pytest.approx([0.0, *(np.ceil(60.0 * np.sqrt(0.2 * n)) / 10.0 for n in range(1, 6))])
-    assert [shot.time for shot in chosen_snapshots(run)] == [0.0, 3.0, 4.0, 5.0, 6.0]  # 2.7, 3.8, 4.7, 5.4, 6
+    assert times_of(run) == [0.0, 3.0, 4.0, 5.0, 6.0]  # 2.7, 3.8, 4.7, 5.4, 6
     for still in (0.0, np.nan):
         write_history(folder / "history.csv", columns | {"mean_displacement_m": np.full(101, still)})
         assert moments(Run(folder)) == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
-    assert [shot.time for shot in chosen_snapshots(Run(make_run(name="given", times="[1.0, 9.0]")))] == [1.0, 9.0]
+    assert times_of(Run(make_run(name="given", times="[1.0, 9.0]"))) == [1.0, 9.0]
+    # Times with a common snapshot have one panel.
+    assert times_of(Run(make_run(name="common", times="[0.0, 8.9, 9.1, 500.0]"))) == [0.0, 9.0, 10.0]
 
 
 def test_few_moments_begin_at_the_peak_of_the_mean_velocity(make_run: MakeRun) -> None:
     run = Run(make_run(times="[0.0, 1.0, 4.0, 6.0, 8.0, 9.0, 10.0]"))  # peak at 5 s
-    assert [shot.time for shot in chosen_snapshots(run, most=3)] == [4.0, 8.0, 10.0]
+    assert times_of(run, most=3) == [4.0, 8.0, 10.0]
     rising = {"mean_velocity_m_s": np.arange(101.0)}
     late = Run(make_run(name="late", times="[0.0, 1.0, 4.0, 9.0]", history=rising))
-    assert [shot.time for shot in chosen_snapshots(late, most=3)] == [1.0, 4.0, 9.0]
-    panels = [title for axes in FIGURES["velocity"].plot(run).axes if (title := axes.get_title(loc="left"))[:1] == "("]
-    assert panels == ["(a) t = 4 s", "(b) t = 8 s", "(c) t = 10 s"]
+    assert times_of(late, most=3) == [1.0, 4.0, 9.0]
+    assert panels_of(FIGURES["velocity"].plot(run)) == ["(a) t = 4 s", "(b) t = 8 s", "(c) t = 10 s"]
 
 
 def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
@@ -53,63 +54,49 @@ def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
     for index in (1, 5, 9):
         np.testing.assert_allclose(shown_snapshot(run, index)["velocity"], [[12.0, -6.0, 0.0]] * 80, atol=1e-9)
     np.testing.assert_array_equal(shown_snapshot(run, 0)["velocity"], run.snapshot(0)["velocity"])
-    figure = FIGURES["velocity"].plot(run)
-    panel = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("(b)"))
+    panel = titled(FIGURES["velocity"].plot(run), "(b)")
     values = [c.get_array() for c in panel.collections if c.get_array() is not None]
     np.testing.assert_allclose(values[0], 6.0 * np.sqrt(5.0))
     assert panel.get_title(loc="right") == "max 13.4 m/s"
 
 
 def velocity_label(run: Run) -> str:
-    labels = [axes.get_xlabel() for axes in FIGURES["velocity"].plot(run).axes]
-    return next(label for label in labels if label.startswith("speed"))
+    return next(label for label in labels(FIGURES["velocity"].plot(run)) if label.startswith("speed"))
 
 
 @pytest.mark.parametrize("facts", [{"at_rest": False}, {}])
 def test_last_velocities_of_a_moving_mass_are_those_of_the_last_time(make_run: MakeRun, facts: dict[str, bool]) -> None:
-    folder = make_run(times="[0.0, 5.0, 10.0]")
-    write_facts(folder, **facts)
-    run = Run(folder)
+    run = Run(make_run(times="[0.0, 5.0, 10.0]", facts=facts))
     np.testing.assert_array_equal(shown_snapshot(run, 10)["velocity"], run.snapshot(10)["velocity"])
     assert velocity_label(run) == "speed (m/s), 2 s mean; at 0 and 10 s: instantaneous"
 
 
 def test_last_velocities_at_rest_are_means_of_the_last_interval(make_run: MakeRun) -> None:
-    folder = make_run(times="[5.0, 10.0]")
     for since, words in ((9.5, "; at 10 s: mean of the last 1 s"), (8.0, "")):
-        write_facts(folder, at_rest=True, rest_since_s=since)
-        assert velocity_label(Run(folder)) == f"speed (m/s), 2 s mean{words}"
+        facts = {"at_rest": True, "rest_since_s": since}
+        run = Run(make_run(name=f"{since}", times="[5.0, 10.0]", facts=facts))
+        assert velocity_label(run) == f"speed (m/s), 2 s mean{words}"
 
 
 def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
     folder = make_run(times="[10.0]", facts={"at_rest": True, "rest_since_s": 8.0})
     points = Run(folder).snapshot(8).points
     for number in (9, 10):
-        move(folder, number, points=points, velocity=1.2)
-    figure = FIGURES["velocity"].plot(Run(folder))
-    (title,) = [axes.get_title(loc="right") for axes in figure.axes if axes.get_title(loc="left").startswith("(a)")]
-    assert title == "max 0 m/s"
+        change_snapshot(folder, number, points=points, velocity=1.2)
+    assert titled(plotted("velocity", folder), "(a)").get_title(loc="right") == "max 0 m/s"
 
 
 def test_velocities_of_particles_in_one_neighbouring_snapshot(make_run: MakeRun) -> None:
     folder, ids = make_run(), np.arange(80)
-    move(folder, 4, id=np.where(ids == 79, 500, ids))  # without 79
-    move(folder, 6, id=np.where(ids == 79, 500, np.where(ids == 78, 400, ids)))  # without 78 and 79
+    change_snapshot(folder, 4, id=np.where(ids == 79, 500, ids))  # without 79
+    change_snapshot(folder, 6, id=np.where(ids == 79, 500, np.where(ids == 78, 400, ids)))  # without 78 and 79
     run = Run(folder)
     found = shown_snapshot(run, 5)["velocity"]
     np.testing.assert_allclose(found[:79], [[12.0, -6.0, 0.0]] * 79, atol=1e-9)
     np.testing.assert_array_equal(found[79], run.snapshot(5)["velocity"][79])
 
 
-def test_maps_have_velocities_of_displacement(map_run: Path) -> None:
-    run = Run(map_run)
-    shot = shown_snapshot(run, 3)
-    before, after = run.snapshot(2), run.snapshot(4)
-    expected = np.linalg.norm(after.points - before.points, axis=1) / (after.time - before.time)
-    np.testing.assert_allclose(painted_values(shot, "velocity"), expected)
-
-
-def test_thin_margins_have_a_separate_colour(map_run: Path) -> None:
+def test_maps_have_a_colour_of_thin_margins_and_velocities_of_displacement(map_run: Path) -> None:
     figure = FIGURES["slide_thickness"].plot(Run(map_run))
     image = next(axes.images[-1] for axes in figure.axes if len(axes.images) > 1)
     norm, colours = image.norm, image.get_cmap()
@@ -123,3 +110,87 @@ def test_thin_margins_have_a_separate_colour(map_run: Path) -> None:
         values = Maps(Run(map_run))[name].values
         shown = _norm(values[values > 0.1], next(kind for kind in _EXTENT if kind.name == name))[0]
         assert shown.vmax == pytest.approx(values.max()) and isinstance(shown, PowerNorm)
+    run = Run(map_run)
+    shot = shown_snapshot(run, 3)
+    before, after = run.snapshot(2), run.snapshot(4)
+    expected = np.linalg.norm(after.points - before.points, axis=1) / (after.time - before.time)
+    np.testing.assert_allclose(painted_values(shot, "velocity"), expected)
+
+
+START = 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
+
+
+@pytest.fixture
+def folder(make_run: MakeRun) -> Path:
+    rows = "start_velocity,40,8,m/s,x\nmean_velocity,42,9,m/s,x\n"
+    return make_run(targets="quantity,time_s,value,unit,source\n" + rows)
+
+
+def labels_of_time(figure: Figure) -> set[str]:
+    return {label for label in labels(figure) if label.startswith("time")}
+
+
+def panels_of(figure: Figure) -> list[str]:
+    return [axes.get_title(loc="left") for axes in maps_of(figure)]
+
+
+@pytest.mark.parametrize("name", ["motion", "force", "band", "energy"])
+def test_curves_have_the_times_of_the_run(folder: Path, name: str) -> None:
+    run = Run(folder)
+    figure = FIGURES[name].plot(run)
+    assert labels_of_time(figure) == {TIME_LABEL}
+    curves = [each for axes in figure.axes for each in axes.lines if len(each.get_xdata()) == run.series.rows]
+    assert curves
+    for curve in curves:
+        np.testing.assert_array_equal(curve.get_xdata(), run.series["time_s"])
+
+
+def test_reported_values_are_shifted_to_the_times_of_the_run(folder: Path) -> None:
+    run = Run(folder)
+    assert [target.time for target in run.targets] == pytest.approx([START, START + 2.0], abs=2e-3)
+    speed = FIGURES["motion"].plot(run).axes[0]
+    np.testing.assert_allclose(line(speed, "reported: x"), [[START + 2.0], [9.0]], atol=2e-3)
+    assert np.interp(run.targets[0].time, *line(speed, "mean (mass-weighted)")) == pytest.approx(8.0, abs=0.01)
+
+
+def test_snapshots_page_and_figures_of_band_columns_have_the_times_of_the_run(folder: Path) -> None:
+    assert panels_of(plotted("velocity", folder)) == ["(a) t = 0 s", "(b) t = 4 s", "(c) t = 7 s"]
+    assert numbers(Run(folder))["Peak mean velocity"][1] == "at 5 s"
+    write_history(folder / "history.csv", column_history())
+    run = Run(folder)
+    for name in ("band", "water"):
+        assert labels_of_time(FIGURES[name].plot(run)) == {TIME_LABEL}
+
+
+def test_reported_values_keep_their_times_without_a_start_velocity_that_is_attained(make_run: MakeRun) -> None:
+    for value in ("mean_velocity,42,9", "start_velocity,40,99"):
+        run = Run(make_run(name=value[:5], targets=f"quantity,time_s,value,unit\n{value},m/s\n"))
+        assert run.targets[0].time == float(value.split(",")[1])
+        assert labels_of_time(FIGURES["motion"].plot(run)) == {TIME_LABEL}
+
+
+TARGETS = sorted((ROOT / "cases").glob("**/*targets*.csv"))
+
+
+@pytest.mark.parametrize("path", TARGETS, ids=lambda path: path.parent.name)
+def test_sources_of_cases_are_publications_in_legends(make_run: MakeRun, path: Path) -> None:
+    targets = read_targets(path)
+    assert targets
+    for target in targets:
+        assert re.match(r"[A-Z][\w-]+( et al\.,| et al\. \(\d{4}\)| \(\d{4}\))", target.source), target.source
+    history = {"time_s": np.linspace(0.0, 250.0, 101), "mean_velocity_m_s": np.linspace(0.0, 20.0, 101)}
+    folder = make_run(history=history, targets=path.read_text(encoding="utf-8"))
+    speed, _ = FIGURES["motion"].plot(Run(folder)).axes
+    of_speed = {target.source for target in targets if target.quantity == "mean_velocity"}
+    marks = {text for each in speed.lines if (text := str(each.get_label())).startswith("modelled: ")}
+    assert marks == {f"modelled: {source}" for source in of_speed}
+
+
+def test_two_reported_forces_of_one_value_can_be_distinguished(make_run: MakeRun) -> None:
+    rows = "max_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
+    size = FIGURES["force"].plot(Run(make_run(targets="quantity,time_s,value,unit,source\n" + rows))).axes[0]
+    one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
+    np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
+    (passed,) = (found for found in size.lines if "band-pass" in str(found.get_label()))
+    assert one.get_color() != two.get_color() == passed.get_color()
+    assert one._unscaled_dash_pattern == (0.0, (4.0, 4.0)) and two._unscaled_dash_pattern == (4.0, (4.0, 4.0))

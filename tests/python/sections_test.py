@@ -6,31 +6,35 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import edit
-from map_runs import MIDDLE, THICKNESS, WEST, centres, ground, maps_of, notes, plotted, write_map
+from figure_parts import maps_of, notes, plotted
+from map_runs import MIDDLE, THICKNESS, WEST, centres, ground, write_map
+from matplotlib.axes import Axes
 
 from thawslide.figures.cross_sections import across, along, extended
 from thawslide.figures.site import distances
 from thawslide.maps import read_map
 
+TERRAIN = "#6B6459"
+
+
+def coloured(axes: Axes, colour: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return the distance and the height above the plane of the line of a colour."""
+    (found,) = [line for line in axes.lines if line.get_color() == colour]
+    x, z = found.get_data()
+    return x, z - ground(WEST + 20.0 + x, np.full(len(x), MIDDLE))
+
 
 def test_sections_have_terrain_and_maximum_thickness(map_run: Path) -> None:
     panels = maps_of(plotted("cross_sections", map_run))
-    assert panels[0].get_title(loc="left").startswith("(a) flow path")
-    assert [axes.get_title(loc="left")[: len("(c) cross section at")] for axes in panels[2:]] == [
-        f"({c}) cross section at" for c in "cdef"
-    ]
-    (surface,) = [line for line in panels[0].lines if line.get_color() == "#6B6459"]
-    x, z = (np.asarray(values, dtype=float) for values in surface.get_data())
-    np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)), rtol=1e-9)
-    assert float(np.max(np.asarray(panels[1].lines[0].get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
-
-
-def test_sections_are_drawn_above_the_ground_of_cells_that_follow_the_terrain(map_run: Path) -> None:
+    titles = ["(a) flow path", *(f"({c}) cross section at" for c in "cdef")]
+    for axes, title in zip((panels[0], *panels[2:]), titles, strict=True):
+        assert axes.get_title(loc="left").startswith(title)
+    np.testing.assert_allclose(coloured(panels[0], TERRAIN)[1], 0.0, atol=1e-6)
+    assert np.max(panels[1].lines[0].get_ydata()) == pytest.approx(THICKNESS)
+    # Above the ground of cells that follow the terrain.
     write_map(map_run / "maps" / "ground.tif", ground(*centres()) + 3.0)
     panel = maps_of(plotted("cross_sections", map_run))[0]
-    (surface,) = [line for line in panel.lines if line.get_color() == "#6B6459"]
-    x, z = (np.asarray(values, dtype=float) for values in surface.get_data())
-    np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)) + 3.0, rtol=1e-9)
+    np.testing.assert_allclose(coloured(panel, TERRAIN)[1], 3.0, atol=1e-6)
 
 
 def test_release_is_not_thicker_than_the_maximum_on_coarser_cells(map_run: Path) -> None:
@@ -61,11 +65,7 @@ def test_exaggeration_of_small_thicknesses_is_stated(map_run: Path) -> None:
         write_map(map_run / "maps" / f"{name}.tif", thin)
     panel = maps_of(plotted("cross_sections", map_run))[0]
     times = float(panel.texts[0].get_text().split("thickness exaggeration ")[1].removesuffix("×"))
-    assert times > 5.0
-    (line,) = [line for line in panel.lines if line.get_color() == "#D55E00"]
-    distance, height = (np.asarray(values, dtype=float) for values in line.get_data())
-    above = height - ground(WEST + 20.0 + distance, np.full(len(distance), MIDDLE))
-    assert np.nanmax(above) == pytest.approx(0.5 * times)
+    assert times > 5.0 and np.nanmax(coloured(panel, "#D55E00")[1]) == pytest.approx(0.5 * times)
 
 
 def corridor(*boxes: tuple[float, float, float, float]) -> np.ndarray:
@@ -75,13 +75,10 @@ def corridor(*boxes: tuple[float, float, float, float]) -> np.ndarray:
     return np.stack([x[inside], y[inside]], axis=1)
 
 
-def test_extended_track_ends_with_the_covered_area() -> None:
+def test_extended_track_ends_with_the_covered_area_also_after_a_bend() -> None:
     found = extended(np.array([[0.0, 0.0], [100.0, 0.0]]), corridor((-200.0, 300.0, -50.0, 50.0)), 100.0)
     np.testing.assert_allclose(found[[0, -1]], [[-195.0, 0.0], [295.0, 0.0]], atol=1e-9)
     np.testing.assert_allclose(found[:, 1], 0.0, atol=1e-9)
-
-
-def test_extended_track_follows_a_bend() -> None:
     """A straight extension would leave the covered area at x = 450 m and miss its northern part."""
     covered = corridor((-50.0, 450.0, -50.0, 50.0), (350.0, 450.0, -50.0, 800.0))
     points, _ = along(extended(np.array([[0.0, 0.0], [200.0, 0.0]]), covered, 100.0))
@@ -101,13 +98,10 @@ def test_note_describes_the_path(map_run: Path) -> None:
     for name in ("max_thickness", "final_thickness", "release"):
         covered = np.where(middle | (np.abs(x - WEST - 250.0) > 150.0), 5.0, 0.0)
         write_map(map_run / "maps" / f"{name}.tif", covered)
-    found = re.search(
-        rf"{words} It is outside the covered area at (\d+) to (\d+) m, (\d+) to (\d+) m\.",
-        notes(plotted("cross_sections", map_run)).replace("\n", " "),
-    )
-    assert found
+    text = notes(plotted("cross_sections", map_run))
+    (found,) = re.findall(rf"{words} It is outside the covered area at (\d+) to (\d+) m, (\d+) to (\d+) m\.", text)
     # The map is known from WEST + 5 m on; between cell centres it is as thick as they are on average.
-    np.testing.assert_allclose([float(part) for part in found.groups()], [95.0, 195.0, 295.0, 395.0], atol=7.0)
+    np.testing.assert_allclose(list(map(float, found)), [95.0, 195.0, 295.0, 395.0], atol=7.0)
 
 
 def test_cross_sections_are_directed_from_left_to_right() -> None:

@@ -25,13 +25,12 @@ Write = Callable[[Any], Path]
 
 def section(**changes: Any) -> dict[str, Any]:
     x, z = np.meshgrid(np.arange(0.05, 1.0, 0.1), np.arange(0.05, 0.5, 0.1))
+    points = np.stack([x.ravel(), z.ravel()], 1).tolist()
     return {
         "title": "Block", "cell": 0.2, "min": [-1.0, -0.4], "max": [6.0, 2.0],
         "boundary": {"x_min": "roller", "x_max": "roller", "y_min": "fixed", "y_max": "open"},
         "terrain": {"x": [-1.0, 6.0], "z": [0.0, 0.0]},
-        "bodies": [
-            {"name": "block", "material": "ice", "points": np.stack([x.ravel(), z.ravel()], 1).tolist(), "spacing": 0.1}
-        ],
+        "bodies": [{"name": "block", "material": "ice", "points": points, "spacing": 0.1}],
         "frames": [{"name": "pusher", "min": [-0.3, 0.0], "max": [0.0, 0.6], "axis": "x", "velocity": 2.0}],
     } | changes  # fmt: skip
 
@@ -74,13 +73,11 @@ def plotted_section(path: Path) -> Figure:
     return plot_setup(read_setup(path))
 
 
-def read(path: Path) -> SetupOnMap:
-    found = read_setup(path)
-    assert isinstance(found, SetupOnMap)
-    return found
+def legend_of(figure: Figure) -> list[str]:
+    return [text.get_text() for text in figure.legends[0].get_texts()]
 
 
-def test_both_panels_have_bodies_terrain_and_frame(write: Write) -> None:
+def test_both_panels_and_the_legend_have_all_parts(write: Write) -> None:
     overview, zoom = plotted_section(write(section())).axes
     assert overview.get_title(loc="left") == "(a) whole domain, true scale; box: (b)"
     assert zoom.get_title(loc="left") == "(b) bodies, true scale, cells of 0.2 m"
@@ -95,6 +92,14 @@ def test_both_panels_have_bodies_terrain_and_frame(write: Write) -> None:
     assert left < -1.0 and right > 6.0
     (box,) = [p for p in overview.patches if not p.get_hatch()]
     assert (box.get_x(), box.get_x() + box.get_width()) == pytest.approx(zoom.get_xlim())
+    figure = plotted_section(write(section()))
+    assert legend_of(figure) == [
+        "block (ice): 50 particles, spacing 0.1 m", "terrain", "frame pusher, 2 m/s along x", "roller: x min, x max",
+        "fixed: y min", "open: y max",
+    ]  # fmt: skip
+    sides = [found for found in figure.axes[0].lines if found.get_color() == "black"]
+    assert [found.get_linestyle() for found in sides] == ["--", "--", "-", ":"]
+    assert list(sides[2].get_ydata()) == [-0.4, -0.4]
 
 
 def test_grid_lines_are_borders_of_cells_and_thinned_if_small(write: Write) -> None:
@@ -103,8 +108,7 @@ def test_grid_lines_are_borders_of_cells_and_thinned_if_small(write: Write) -> N
     upright = sorted(s[0][0] for s in (np.asarray(p.vertices) for p in grid.get_paths()) if s[0][0] == s[1][0])
     left, right = zoom.get_xlim()
     cells = (np.array(upright) + 1.0) / 0.2
-    np.testing.assert_allclose(cells, np.arange(cells[0], cells[0] + len(cells)), atol=1e-9)
-    np.testing.assert_allclose(cells, np.round(cells), atol=1e-9)
+    np.testing.assert_allclose(cells, np.round(cells[0]) + np.arange(len(cells)), atol=1e-9)
     assert left - 1e-9 <= upright[0] and upright[-1] <= right and len(upright) > 10
     _, zoom = plotted_section(write(section(cell=0.002))).axes
     assert zoom.get_title(loc="left").startswith("(b) bodies, true scale, cells of 0.002 m, one grid line per ")
@@ -112,40 +116,21 @@ def test_grid_lines_are_borders_of_cells_and_thinned_if_small(write: Write) -> N
     assert len(grid.get_paths()) < 500
 
 
-def test_legend_has_all_parts_and_boundaries_have_line_styles(write: Write) -> None:
-    (legend,) = plotted_section(write(section())).legends
-    assert [text.get_text() for text in legend.get_texts()] == [
-        "block (ice): 50 particles, spacing 0.1 m", "terrain", "frame pusher, 2 m/s along x", "roller: x min, x max",
-        "fixed: y min", "open: y max",
-    ]  # fmt: skip
-    overview, _ = plotted_section(write(section())).axes
-    sides = [found for found in overview.lines if found.get_color() == "black"]
-    assert [found.get_linestyle() for found in sides] == ["--", "--", "-", ":"]
-    assert list(sides[2].get_ydata()) == [-0.4, -0.4]
-
-
 def test_substrates_are_lines_on_the_terrain(write: Write) -> None:
     terrain = {"x": [-1.0, 1.0, 3.0, 6.0], "z": [0.0, 0.0, -1.0, -1.0]}
     data = section(terrain=terrain, substrates={"names": ["glacier"], "numbers": [0, 0, 1, 1]})
     figure = plotted_section(write(data))
-    assert "substrate glacier" in [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "substrate glacier" in legend_of(figure)
     (line,) = [each for each in figure.axes[0].lines if each.get_linewidth() == 3.0]
     shown = ~np.isnan(np.asarray(line.get_ydata(), float))
     assert np.asarray(line.get_xdata())[shown].tolist() == [3.0, 6.0]
 
 
-def test_setup_on_a_dem_is_read(write: Write) -> None:
-    found = read(write(on_map()))
-    x, y = centres()
-    assert np.isnan(found.terrain.values[:3, :3]).all()
-    np.testing.assert_allclose(found.terrain.values[3:], ground(x, y)[3:])
-    assert found.domain == (WEST + 20.0, WEST + 580.0, SOUTH + 20.0, SOUTH + 280.0)
-    (release,) = found.releases
-    assert release.thickness is not None and release.thickness.volume() == pytest.approx(28800.0)
-
-
 def test_both_maps_have_domain_release_path_and_probes(write: Write) -> None:
-    figure = plot_setup_on_map(read(write(on_map())))
+    found = read_setup(write(on_map()))
+    assert isinstance(found, SetupOnMap) and np.isnan(found.terrain.values[:3, :3]).all()
+    np.testing.assert_allclose(found.terrain.values[3:], ground(*centres())[3:])
+    figure = plot_setup_on_map(found)
     overview, near, bar = figure.axes
     assert overview.get_title(loc="left") == "(a) whole domain; box: (b)"
     assert (near.get_title(loc="left"), near.get_title(loc="right")) == ("(b) release", "grid cells of 10 m")
@@ -155,9 +140,7 @@ def test_both_maps_have_domain_release_path_and_probes(write: Write) -> None:
     (left, right), (low, high) = near.get_xlim(), near.get_ylim()
     assert left < WEST + 60.0 and right > WEST + 140.0 and right - left < 250.0
     assert low < MIDDLE - 30.0 and high > MIDDLE + 30.0
-    (legend,) = figure.legends
-    words = [text.get_text() for text in legend.get_texts()]
-    assert words == ["slab (ice): 28,800 m³, maximum thickness 6 m", "domain", "flow path", "probe"]
+    assert legend_of(figure) == ["slab (ice): 28,800 m³, maximum thickness 6 m", "domain", "flow path", "probe"]
     assert {"gate", "weir"} <= {text.get_text() for text in overview.texts}
     note = figure.texts[-1].get_text().replace("\n", " ")
     assert note.startswith("Coordinates: EPSG:31287. Hillshade from the north-west, contour interval 20")
@@ -179,13 +162,12 @@ def test_substrates_are_hatched_in_their_cells(write: Write) -> None:
     x, y = centres()
     numbers = np.where(x > WEST + 300.0, 2.0, 0.0) + 0.0 * y
     data = on_map(substrates={"names": ["debris", "glacier"], "numbers": grid_form(numbers)})
-    figure = plot_setup_on_map(read(write(data)))
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert "substrate debris" in labels and "substrate glacier" in labels
+    figure = plot_setup_on_map(read_setup(write(data)))
+    assert {"substrate debris", "substrate glacier"} <= set(legend_of(figure))
     (hatched,) = hatched_areas(figure.axes[0])  # no cell has debris
     ends = np.concatenate([path.vertices for path in hatched.get_paths() if len(path.vertices)])
     assert ends[:, 0].min() == pytest.approx(WEST + 300.0, abs=10.0)
-    assert not hatched_areas(plot_setup_on_map(read(write(on_map()))).axes[0])
+    assert not hatched_areas(plot_setup_on_map(read_setup(write(on_map()))).axes[0])
 
 
 def hatched_areas(axes: Axes) -> list[QuadContourSet]:
@@ -193,18 +175,15 @@ def hatched_areas(axes: Axes) -> list[QuadContourSet]:
     return [each for each in contours if any(each.hatches)]
 
 
-@pytest.mark.parametrize(
-    "data",
-    [
-        section(terrain=None),
-        section(bodies=[]),
-        section(bodies=None, frames=None, boundary=None),
-        on_map(bodies=[]),
-        on_map(path=None, probes=None, crs=None),
-        on_map(path=[], probes={}, crs="", bodies=[{"name": "a", "material": "ice"}]),
-        on_map(bodies=[{"name": "a", "material": "ice", "outlines": [], "volume_m3": 2e7, "thickness": None}]),
-    ],
-)
+LITTLE = [
+    section(terrain=None), section(bodies=[]), section(bodies=None, frames=None, boundary=None), on_map(bodies=[]),
+    on_map(path=None, probes=None, crs=None),
+    on_map(path=[], probes={}, crs="", bodies=[{"name": "a", "material": "ice"}]),
+    on_map(bodies=[{"name": "a", "material": "ice", "outlines": [], "volume_m3": 2e7, "thickness": None}]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("data", LITTLE)
 def test_optional_parts_can_be_missing(write: Write, tmp_path: Path, data: dict[str, Any]) -> None:
     picture = tmp_path / "new" / "out.png"
     assert main(["--setup", str(write(data)), "--picture", str(picture), "--dpi", "50"]) == 0
@@ -212,28 +191,23 @@ def test_optional_parts_can_be_missing(write: Write, tmp_path: Path, data: dict[
 
 
 NO_SETUP = "setup.json: not a setup of the simulator"
+FIVE_ROWS = on_map(terrain=grid_form(np.ones((3, 4))) | {"rows": 5})
 
 
 @pytest.mark.parametrize(
     ("content", "text"),
     [
-        ("{", "setup.json: not valid JSON"),
+        ("{", "setup.json: not valid JSON"), ([], "setup.json: not a JSON object."), (section(cell="wide"), NO_SETUP),
         ({"title": "Block"}, f"{NO_SETUP} (found no key 'min'). Repeat `thawslide check --picture`."),
-        ([], "setup.json: not a JSON object."),
-        (section(cell="wide"), NO_SETUP),
-        (section(cell=0.0), "domain from -1 to 6 m with cells of 0 m"),
-        (section(cell=1e-9), "m with cells of 1e-09 m"),
+        (section(cell=0.0), "domain from -1 to 6 m with cells of 0 m"), (section(cell=1e-9), "m with cells of 1e-09 m"),
         (section(max=[1e400, 20.0]), "domain from -1 to inf m"),
         (section(terrain={"x": [0.0, 1.0], "z": [0.0]}), "x, z and substrates of the terrain differ in length"),
         (section(terrain={"x": [0.0, None], "z": [0.0, 1.0]}), "a number is missing or not finite"),
         (on_map(terrain={"heights": []}), f"{NO_SETUP} (found no key 'x0')."),
-        (
-            on_map(terrain=grid_form(np.ones((3, 4))) | {"rows": 5}),
-            f"{NO_SETUP} (12 heights for 4 columns and 5 rows).",
-        ),
+        (FIVE_ROWS, f"{NO_SETUP} (12 heights for 4 columns and 5 rows)."),
         (on_map(bodies=[{"name": "a"}]), f"{NO_SETUP} (found no key 'material')"),
     ],
-)
+)  # fmt: skip
 def test_invalid_setups_are_errors(write: Write, tmp_path: Path, fails: Fails, content: Any, text: str) -> None:
     fails(["--setup", str(write(content)), "--picture", str(tmp_path / "out.png")], text)
 

@@ -1,12 +1,9 @@
 """Warnings inside figures: panels and numbers."""
 
-from pathlib import Path
-
-import h5py
 import numpy as np
 import pytest
-from band_columns_test import column_history
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun, change_snapshot, column_history, history_columns, write_history
+from figure_parts import line, titled
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
@@ -26,12 +23,6 @@ def warnings(figure: Figure) -> dict[str, str]:
         return " ".join(text.get_text().replace("\n", " ") for text in axes.texts if text.get_gid() == "warning")
 
     return {axes.get_title(loc="left")[:3]: of(axes) for axes in figure.axes if of(axes)}
-
-
-def change_snapshot(folder: Path, number: int, **fields: float) -> None:
-    with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
-        for name, value in fields.items():
-            file[f"VTKHDF/PointData/{name}"][:3] = value
 
 
 def test_physical_values_have_no_warning(make_run: MakeRun) -> None:
@@ -86,14 +77,14 @@ def test_warnings_are_above_curves_and_unapplied_pressure_is_marked(make_run: Ma
 
 def test_panel_of_hot_particles_has_a_warning(make_run: MakeRun) -> None:
     folder = make_run()
-    change_snapshot(folder, 4, temperature=4321.0)
+    change_snapshot(folder, 4, slice(3), temperature=4321.0)
     found = warnings(FIGURES["temperature"].plot(Run(folder)))
     assert list(found) == ["(b)"] and "4,320 °C exceeds" in found["(b)"]
-    change_snapshot(folder, 4, liquid_saturation=0.0)
+    change_snapshot(folder, 4, slice(3), liquid_saturation=0.0)
     assert warnings(FIGURES["temperature"].plot(Run(folder))) == {}, "dry"
 
 
-def test_pore_pressure_is_compared_with_the_overburden(make_run: MakeRun) -> None:
+def test_pore_pressure_is_compared_with_the_overburden_of_the_width(make_run: MakeRun) -> None:
     folder = make_run()
     run = Run(folder)
     shot = run.snapshot(4)
@@ -103,31 +94,17 @@ def test_pore_pressure_is_compared_with_the_overburden(make_run: MakeRun) -> Non
         higher = (cell == cell[number]) & (shot.points[:, 1] > shot.points[number, 1])
         assert weight[number] == pytest.approx(9.81 / 2.0 * (shot["mass"][higher].sum() + 0.5 * 2000.0))
     for factor, words in ((1.9, {}), (6.0, {"(c)": "⚠ unphysical: P/overburden at least 6 in 5 % of particles"})):
-        for path in run.snapshot_files:
-            with h5py.File(path, "r+") as file:
-                pressure = 0.5 * overburden(run, run.snapshot(int(path.stem)))
-                pressure[-8:] *= 2.0 * factor if path.stem.endswith("7") else 1.0
-                file["VTKHDF/PointData/pore_pressure"][:] = pressure
+        for number in range(11):
+            pressure = 0.5 * overburden(run, run.snapshot(number))
+            pressure[-8:] *= 2.0 * factor if number == 7 else 1.0
+            change_snapshot(folder, number, pore_pressure=pressure)
         assert warnings(FIGURES["pore_pressure"].plot(Run(folder))) == words
+    widening = "{ x = [0.0, 1.0], value = [10.0, 20.0] }"
+    before, wide = (Run(make_run(name=f"width {width}"[:9], width=width)) for width in (10.0, widening))
+    np.testing.assert_allclose(overburden(wide, wide.snapshot(4)), 0.5 * overburden(before, before.snapshot(4)))
 
 
-def test_normal_pressure_is_next_to_pore_pressure(make_run: MakeRun) -> None:
-    run = Run(make_run())
-    pressure = next(axes for axes in FIGURES["band"].plot(run).axes if axes.get_title(loc="left").startswith("(b)"))
-    lines = {str(line.get_label()): line for line in pressure.lines}
-    assert pressure.get_ylabel() == "pore pressure (MPa)"
-    np.testing.assert_allclose(1e6 * lines["pore pressure P"].get_ydata(), run.series["band_pore_pressure_Pa"])
-    time, load = load_on_band(run)
-    np.testing.assert_array_equal(time, run.times)
-    np.testing.assert_allclose(1e6 * lines["static normal pressure N"].get_ydata(), load)
-    for index in (0, 5, 10):
-        shot = run.snapshot(index)
-        expected = 0.8 * overburden(run, shot)[shot["in_band"] == 1].mean()  # cos2 of a slope of 1/2
-        assert load[index] == pytest.approx(expected)
-    assert not len(load_on_band(Run(make_run(name="space", dimension=3)))[0])
-
-
-def test_figure_20_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
+def test_normal_pressure_is_next_to_pore_pressure_with_the_same_warnings_in_figure_20(make_run: MakeRun) -> None:
     run = Run(make_run())
     columns = run.series
     figure = figure_20({"lamplugh": run})
@@ -137,9 +114,11 @@ def test_figure_20_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None
     ratio = np.nanmax(np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load)
     assert f"{number_text(hottest)} °C exceeds the boiling point" in words
     assert f"P/overburden up to {number_text(ratio)}" in words
-
-
-def test_overburden_depends_on_the_width_of_the_section(make_run: MakeRun) -> None:
-    widening = "{ x = [0.0, 1.0], value = [10.0, 20.0] }"
-    before, wide = (Run(make_run(name=f"width {width}"[:9], width=width)) for width in (10.0, widening))
-    np.testing.assert_allclose(overburden(wide, wide.snapshot(4)), 0.5 * overburden(before, before.snapshot(4)))
+    np.testing.assert_array_equal(time, run.times)
+    pressure = titled(FIGURES["band"].plot(run), "(b)")
+    np.testing.assert_allclose(1e6 * line(pressure, "static normal pressure N")[1], load)
+    for index in (0, 5, 10):
+        shot = run.snapshot(index)
+        expected = 0.8 * overburden(run, shot)[shot["in_band"] == 1].mean()  # cos2 of a slope of 1/2
+        assert load[index] == pytest.approx(expected)
+    assert not len(load_on_band(Run(make_run(name="space", dimension=3)))[0])
