@@ -4,7 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import MakeRun, edit, page_of, update_facts
+from conftest import ROOT, MakeRun, edit, page_of, update_facts
+from figure_parts import line
 from wrong_tables import HEADER, WRONG_TARGETS
 
 from thawslide import ReportError, Run
@@ -20,31 +21,19 @@ def read(tmp_path: Path, text: str | bytes) -> list[Target]:
     return read_targets(path)
 
 
-@pytest.mark.parametrize(
-    ("row", "value"),
-    [
-        ("mean_displacement,5,0.6,km,x", 600.0),
-        ("front_distance,5,80,cm,x", 0.8),
-        ("mean_velocity,5,36,km/h,x", 10.0),
-        ("band_temperature,5,0,K,x", -273.15),
-        ("band_temperature,5,-1,degC,x", -1.0),
-        ("band_saturation,5,30,%,x", 0.3),
-        ("band_pore_pressure,5,1.5,MPa,x", 1.5e6),
-        ("max_seismic_force,5,0.28,TN,x", 2.8e11),
-        ("max_seismic_force_35_150_s,5,280,GN,x", 2.8e11),
-        ("source_volume,0,52,million m3,x", 52e6),
-        ("deposit_volume,0,0.052,km³,x", 52e6),
-        ("deposit_area,0,12,ha,x", 12e4),
-        ("angle_of_reach,0,0.25,rad,x", 14.323944878270581),
-    ],
-)
-def test_units_are_converted_and_back(tmp_path: Path, row: str, value: float) -> None:
-    (target,) = read(tmp_path, HEADER + row + "\n")
-    assert target.value == pytest.approx(value, rel=1e-14, abs=1e-14)
-    assert target.in_its_unit(target.value) == pytest.approx(float(row.split(",")[2]), rel=1e-12, abs=1e-12)
-
-
-def test_conversion_of_each_unit_is_invertible() -> None:
+def test_units_are_converted_and_back(tmp_path: Path) -> None:
+    rows = {
+        "mean_displacement,5,0.6,km,x": 600.0, "front_distance,5,80,cm,x": 0.8, "mean_velocity,5,36,km/h,x": 10.0,
+        "band_temperature,5,0,K,x": -273.15, "band_temperature,6,-1,degC,x": -1.0, "band_saturation,5,30,%,x": 0.3,
+        "band_pore_pressure,5,1.5,MPa,x": 1.5e6, "max_seismic_force,5,0.28,TN,x": 2.8e11,
+        "max_seismic_force_35_150_s,5,280,GN,x": 2.8e11, "source_volume,0,52,million m3,x": 52e6,
+        "deposit_volume,0,0.052,km³,x": 52e6, "deposit_area,0,12,ha,x": 12e4,
+        "angle_of_reach,0,0.25,rad,x": 14.323944878270581,
+    }  # fmt: skip
+    targets = read(tmp_path, HEADER + "\n".join(rows) + "\n")
+    for (row, value), target in zip(rows.items(), targets, strict=True):
+        assert target.value == pytest.approx(value, rel=1e-14, abs=1e-14), row
+        assert target.in_its_unit(target.value) == pytest.approx(float(row.split(",")[2]), rel=1e-12, abs=1e-12), row
     for name, quantity in QUANTITIES.items():
         assert next(iter(quantity.units.values())) == (1.0, 0.0), name
         for unit, (factor, offset) in quantity.units.items():
@@ -52,26 +41,14 @@ def test_conversion_of_each_unit_is_invertible() -> None:
             assert factor * target.in_its_unit(7.0) + offset == pytest.approx(7.0, rel=1e-12), unit
 
 
-@pytest.mark.parametrize(("column", "seconds"), [("time_s", 1.5), ("time_min", 90.0), ("time_h", 5400.0)])
-def test_times_can_be_in_minutes_and_hours(tmp_path: Path, column: str, seconds: float) -> None:
-    (target,) = read(tmp_path, f"quantity,{column},value,unit\nmean_velocity,1.5,1,m/s\n")
-    assert (target.time, target.source) == (seconds, "")
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        HEADER.encode() + "mean_displacement,5,0.6,km,Müller\n".encode(),
-        b"\xef\xbb\xbf" + HEADER.encode() + "mean_displacement,5,0.6,km,Müller\n".encode(),
-        (HEADER + "mean_displacement,5,0.6,km,Müller\n").replace("\n", "\r\n").encode(),
-        (HEADER + "mean_displacement,5,0.6,km,Müller").replace("\n", "\r").encode(),
-        ("# one\n\n" + HEADER + '\n"mean_displacement" , 5, 0.6 ,km, "Müller"\n\n').replace(" , 5", ",5").encode(),
-    ],
-    ids=["plain", "mark", "windows", "old mac", "spaces"],
-)
-def test_line_ends_marks_and_spaces_are_ignored(tmp_path: Path, text: bytes) -> None:
-    (target,) = read(tmp_path, text.replace(b', "M', b',"M'))
-    assert (target.quantity, target.time, target.value, target.source) == ("mean_displacement", 5.0, 600.0, "Müller")
+def test_times_can_be_in_minutes_and_line_ends_marks_and_spaces_are_ignored(tmp_path: Path) -> None:
+    for column, seconds in ("time_s", 1.5), ("time_min", 90.0), ("time_h", 5400.0):
+        (target,) = read(tmp_path, f"quantity,{column},value,unit\nmean_velocity,1.5,1,m/s\n")
+        assert (target.time, target.source) == (seconds, "")
+    text = HEADER + "mean_displacement,5,0.6,km,Müller\n"
+    spaces = f'# one\n\n{HEADER}\n"mean_displacement",5, 0.6 ,km,"Müller"\n\n'
+    for each in text, "\ufeff" + text, text.replace("\n", "\r\n"), text.rstrip().replace("\n", "\r"), spaces:
+        assert read(tmp_path, each) == [Target("mean_displacement", 5.0, 600.0, "km", "Müller")], each
 
 
 @pytest.mark.parametrize(("text", "message"), WRONG_TARGETS)
@@ -89,9 +66,8 @@ def test_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
     page = re.sub(r'<td data-column="[^"]*">', "<td>", page_of(folder))
     assert '<th scope="row">mean displacement</th><td>5 s</td><td>0.06 km</td><td>0.04 km</td><td>model</td>' in page
     speed, distance = FIGURES["motion"].plot(run).axes
-    marks = {str(line.get_label()): line.get_ydata() for axes in (speed, distance) for line in axes.lines}
-    assert list(marks["reported: seismic"]) == [10.0]
-    assert list(marks["reported mean displacement: model"]) == [60.0]
+    assert line(speed, "reported: seismic")[1] == [10.0]
+    assert line(distance, "reported mean displacement: model")[1] == [60.0]
 
 
 def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun) -> None:
@@ -107,15 +83,15 @@ def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun
     assert [kind for kind, _ in kinds] == ["Observations", "Results of other models", "Assumptions"]
     sources = [re.findall(r"<td[^>]*>(radar|survey|blocks|guess)</td>", table) for _, table in kinds]
     assert sources == [["radar", "survey"], ["blocks", "blocks"], ["guess"]]
-    speed, distance = FIGURES["motion"].plot(run).axes
-    marks = {str(line.get_label()): line for axes in (speed, distance) for line in axes.lines}
-    assert list(marks["observed: radar"].get_ydata()) == [9.0]
-    assert list(marks["modelled: blocks"].get_ydata()) == [11.0]
-    assert list(marks["observed mean displacement: survey"].get_ydata()) == [70.0]
-    assert list(marks["assumed runout distance: guess"].get_ydata()) == [150.0]
-    filled = {label: line.get_markerfacecolor() != "white" for label, line in marks.items() if ": " in label}
-    of_observations = ["observed: radar", "observed mean displacement: survey"]
-    assert [label for label, is_filled in filled.items() if is_filled] == of_observations
+    marks = {str(each.get_label()): each for axes in FIGURES["motion"].plot(run).axes for each in axes.lines}
+    expected = {
+        "observed: radar": 9.0, "modelled: blocks": 11.0, "observed mean displacement: survey": 70.0,
+        "assumed runout distance: guess": 150.0,
+    }  # fmt: skip
+    for label, value in expected.items():
+        assert list(marks[label].get_ydata()) == [value]
+    filled = [label for label, each in marks.items() if ": " in label and each.get_markerfacecolor() != "white"]
+    assert filled == ["observed: radar", "observed mean displacement: survey"]
 
 
 def test_results_of_the_end_are_compared(make_run: MakeRun) -> None:
@@ -146,24 +122,19 @@ def test_file_outside_the_run_folder_is_an_error(make_run: MakeRun, name: str) -
 
 
 def test_targets_of_the_cases_are_valid_and_have_kinds() -> None:
-    root = Path(__file__).resolve().parents[2]
-    found = {path.parent.name: read_targets(path) for path in root.glob("cases/*/*targets.csv")}
-    assert {"lamplugh", "lamplugh-columns"} <= set(found)
+    found = {path.parent.name: read_targets(path) for path in ROOT.glob("cases/*/*targets.csv")}
     displacement = [target.value for target in found["lamplugh"] if target.quantity == "mean_displacement"]
     assert displacement == [5612.0, 5929.0]
-    for name in ("lamplugh", "lamplugh-columns"):
-        found = read_targets(root / "cases" / name / "lamplugh_targets.csv")
-        observed = {target.quantity for target in found if target.kind == "observation"}
-        assert observed == {
+    for targets in (found["lamplugh"], found["lamplugh-columns"]):
+        assert {target.quantity for target in targets if target.kind == "observation"} == {
             "front_distance", "max_seismic_force", "max_seismic_force_35_150_s", "source_volume",
             "source_mean_thickness",
         }  # fmt: skip
-        assert {target.kind for target in found} == {"observation", "model"}
+        assert {target.kind for target in targets} == {"observation", "model"}
 
 
 def test_reference_has_all_quantities_with_units() -> None:
-    page = Path(__file__).resolve().parents[2] / "docs" / "reference" / "reported-values.md"
-    text = page.read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "reference" / "reported-values.md").read_text(encoding="utf-8")
     table = text[text.index("| quantity | unit |") :].split("\n\n")[0]
     stated: dict[str, set[str]] = {}
     for row in table.splitlines()[2:]:

@@ -13,28 +13,22 @@ INVALID = [
     ("quantity;unit\na;m\n", "found 'quantity;unit'. Columns are parted by commas: write , in place of ;"),
     ("quantity,value,unit\nmean_velocity,1,m/s\n", f":1: {NO_TIME}found none"),
     ("quantity,time_s,time_h,value,unit\n", f":1: {NO_TIME}"),
-    (
-        "quantity,time_s,value,unit,sorce\n",
-        ":1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, ",
-    ),
+    ("quantity,time_s,value,unit,sorce\n",
+     ":1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, "),
     ("quantity,time_s,value,unit,unit\n", ":1: two columns 'unit'"),
     (HEADER + "qqq,4,8,m/s,x\n", ":2: no quantity is called 'qqq'. There are: "),
     ("# x\n" + HEADER + "mean_displacement,4,8,ft,x\n", ":3: the unit 'ft' for mean_displacement; allowed: m, km, cm"),
     (HEADER + "mean_velocity,4,8\n", ":2: 3 values for 5 columns"),
-    (
-        ROWS + "mean_velocity,4,9,m/s,x\n",
-        ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
-    ),
+    (ROWS + "mean_velocity,4,9,m/s,x\n",
+     ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two"),
     (KINDS + "mean_velocity,4,8,m/s,guess\n", f":2: the kind 'guess' {ALLOWED_KINDS}"),
     (KINDS + "mean_velocity,4,8,m/s,\n", f":2: no kind {ALLOWED_KINDS}"),
     (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", ":2: byte 0xfc is not UTF-8"),
     (HEADER.encode("utf-16"), ": encoded as UTF-16; save it as UTF-8"),
     (b"x" * (1024 * 1024 + 1), ": too large (allowed 1 MB)"),
-    (
-        HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
-        ":3: start_velocity is in line 2 already; one row sets the clock",
-    ),
-]
+    (HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
+     ":3: start_velocity is in line 2 already; one row sets the clock"),
+]  # fmt: skip
 # The second line of a file, and words of the message.
 INVALID_ROWS = [
     ("mean_velocty,4,8,m/s,x", "no quantity is called 'mean_velocty'; did you mean mean_velocity? There are: "),
@@ -69,17 +63,11 @@ WRONG_FORCES = [
     (FORCES + "0,0,x,0\n1,0,0,0\n", ":2: expected a number, found 'x'"),
     (FORCES + "0,0,inf,0\n1,0,0,0\n", ":2: expected a finite number, found 'inf'"),
     (FORCES + "0,0,0\n1,0,0,0\n", ":2: 3 values for 4 columns"),
-    (
-        FORCES + "0,0,0,0\n1,0,0,0\n1.0,0,0,0\n",
-        ":4: time_s does not rise (found 1.0 after 1; allowed: more than that). Sort the rows by time.",
-    ),
-    (
-        FORCES.rstrip() + ",up_low_N\n0,0,0,0,0\n1,0,0,0,0\n",
-        f":1: the range is not complete (found no {ALL.removeprefix('up_low_N, ')}; allowed: all of {ALL}, or "
-        "none). Add what is missing.",
-    ),
-    (
-        FORCE_RANGE + "0,0,0,0,-1,1,-1,1,-1,1\n1,0,2,0,-1,1,-1,1,-1,1\n",
-        ":3: north_N is outside its range (found 2; allowed: -1 to 1). Correct one of the three.",
-    ),
-]
+    (FORCES + "0,0,0,0\n1,0,0,0\n1.0,0,0,0\n",
+     ":4: time_s does not rise (found 1.0 after 1; allowed: more than that). Sort the rows by time."),
+    (FORCES.rstrip() + ",up_low_N\n0,0,0,0,0\n1,0,0,0,0\n",
+     f":1: the range is not complete (found no {ALL.removeprefix('up_low_N, ')}; allowed: all of {ALL}, or "
+     "none). Add what is missing."),
+    (FORCE_RANGE + "0,0,0,0,-1,1,-1,1,-1,1\n1,0,2,0,-1,1,-1,1,-1,1\n",
+     ":3: north_N is outside its range (found 2; allowed: -1 to 1). Correct one of the three."),
+]  # fmt: skip
