@@ -1,7 +1,8 @@
-"""Polygons of a map above a threshold, and their files."""
+"""Polygons of a map above a threshold, their files, and layers of a GeoPackage."""
 
 import json
 import sqlite3
+import struct
 import subprocess
 from contextlib import closing
 from pathlib import Path
@@ -9,11 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Fails
-from map_runs import CELL, SOUTH, WEST, write_map
+from map_runs import CELL, SOUTH, WEST, line_blob, write_layer, write_map
 
+from thawslide import NotInRunError, ReportError
 from thawslide.command_line import main
 from thawslide.contours import areas_beyond
-from thawslide.geopackage import read_layer
+from thawslide.geopackage import geometry_parts, read_layer
 from thawslide.maps import read_map
 
 RADIUS, TOP = 100.0, 8.0  # of a cone [m]
@@ -51,7 +53,7 @@ def test_area_reached_before_a_time_has_no_zero_around_it(tmp_path: Path) -> Non
     assert early.size == pytest.approx(5.0 * CELL * 7.0 * CELL)
 
 
-def test_geopackage_is_read_back_with_its_attributes(map_run: Path) -> None:
+def test_geopackage_is_read_back_with_its_attributes_also_by_gdal(map_run: Path) -> None:
     words = ["contours", str(map_run), "--map", "max_thickness", "--threshold", "0.5", "--threshold", "3"]
     assert main(words) == 0
     file = map_run / "contours-max_thickness.gpkg"
@@ -65,18 +67,6 @@ def test_geopackage_is_read_back_with_its_attributes(map_run: Path) -> None:
     with closing(sqlite3.connect(file)) as database:
         assert database.execute("SELECT srs_id FROM gpkg_contents").fetchall() == [(31287,)]
         assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)
-
-
-def test_geojson_coordinates_are_in_degrees(map_run: Path, tmp_path: Path) -> None:
-    file = tmp_path / "areas.geojson"
-    assert main(["contours", str(map_run), "--map", "max_speed", "--threshold", "1", "--output", str(file)]) == 0
-    ((feature),) = json.loads(file.read_text())["features"]
-    corners = np.concatenate([np.array(ring) for rings in feature["geometry"]["coordinates"] for ring in rings])
-    assert (corners[:, 0] > 9.0).all() and (corners[:, 0] < 18.0).all()  # Austria
-    assert (corners[:, 1] > 46.0).all() and (corners[:, 1] < 49.5).all()
-
-
-def test_gdal_reads_the_geopackage(map_run: Path) -> None:
     assert main(["contours", str(map_run), "--map", "max_thickness", "--threshold", "1"]) == 0
     try:
         command = ["ogrinfo", "-so", "-al", str(map_run / "contours-max_thickness.gpkg")]
@@ -85,6 +75,18 @@ def test_gdal_reads_the_geopackage(map_run: Path) -> None:
         pytest.skip("ogrinfo not found. Install gdal-bin.")
     assert "Geometry: Multi Polygon" in text and "Feature Count: 1" in text
     assert "MGI / Austria Lambert" in text and "threshold: Real" in text
+
+
+def test_geojson_in_degrees_requires_a_coordinate_system(map_run: Path, tmp_path: Path, fails: Fails) -> None:
+    file = tmp_path / "areas.geojson"
+    assert main(["contours", str(map_run), "--map", "max_speed", "--threshold", "1", "--output", str(file)]) == 0
+    ((feature),) = json.loads(file.read_text())["features"]
+    corners = np.concatenate([np.array(ring) for rings in feature["geometry"]["coordinates"] for ring in rings])
+    assert (corners > [9.0, 46.0]).all() and (corners < [18.0, 49.5]).all()  # Austria
+    cone(map_run / "maps", crs=None)
+    words = ["contours", str(map_run), "--map", "cone", "--threshold", "1"]
+    fails([*words, "--output", str(map_run / "a.geojson")], "no coordinate system, which GeoJSON requires")
+    assert main(words) == 0
 
 
 @pytest.mark.parametrize(
@@ -101,8 +103,56 @@ def test_invalid_options_are_refused(map_run: Path, fails: Fails, words: list[st
     fails(["contours", str(map_run), *words], message)
 
 
-def test_a_map_without_a_coordinate_system_needs_a_geopackage(map_run: Path, fails: Fails) -> None:
-    cone(map_run / "maps", crs=None)
-    words = ["contours", str(map_run), "--map", "cone", "--threshold", "1"]
-    fails([*words, "--output", str(map_run / "a.geojson")], "no coordinate system, which GeoJSON requires")
-    assert main(words) == 0
+HEAD = b"GP\0\1" + struct.pack("<i", 0)
+
+
+def points(values: list[list[float]], order: str = "<") -> bytes:
+    return struct.pack(f"{order}I", len(values)) + np.array(values, f"{order}f8").tobytes()
+
+
+def test_lines_have_their_attributes(tmp_path: Path) -> None:
+    line = np.array([[1.0, 2.0], [3.0, 5.0], [7.0, 11.0]])
+    write_layer(tmp_path / "a.gpkg", "path", [line_blob(line), line_blob(line + 1.0, envelope=True)])
+    first, second = read_layer(tmp_path / "a.gpkg", "path")
+    np.testing.assert_array_equal(first.parts[0], line)
+    np.testing.assert_array_equal(second.parts[0], line + 1.0)
+    assert second.attributes == {"fid": 2, "time_s": 1.5}
+
+
+def test_points_and_polygons_with_holes_are_read_without_heights() -> None:
+    np.testing.assert_array_equal(geometry_parts(HEAD + struct.pack("<BI2d", 1, 1, 4.0, 5.0))[0], [[4.0, 5.0]])
+    ring, hole = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [0.0, 0.0]], [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0], [1.0, 1.0]]
+    polygon = struct.pack("<BII", 1, 3, 2) + points(ring) + points(hole)
+    outer, inner = geometry_parts(HEAD + polygon)
+    np.testing.assert_array_equal(outer, ring)
+    np.testing.assert_array_equal(inner, hole)
+    assert len(geometry_parts(HEAD + struct.pack("<BII", 1, 6, 3) + 3 * polygon)) == 6
+    line = struct.pack(">BI", 0, 1002) + points([[1.0, 2.0, 800.0], [3.0, 4.0, 900.0]], ">")
+    np.testing.assert_array_equal(geometry_parts(HEAD + line)[0], [[1.0, 2.0], [3.0, 4.0]])
+    assert geometry_parts(None) == []
+
+
+def test_unreadable_layers_are_errors(tmp_path: Path) -> None:
+    path, other = tmp_path / "a.gpkg", tmp_path / "other.gpkg"
+    write_layer(path, "path", [line_blob(np.eye(2))[:-4]])
+    other.write_text("nothing of the kind, but long enough to be looked into" * 20)
+    for file, layer, kind, text in (
+        (tmp_path / "no", "path", NotInRunError, r"no: no such file\. Only a 3D run on a DEM writes it"),
+        (path, "front", NotInRunError, r"a\.gpkg: no layer front \(found: path\)"),
+        (path, "path", ReportError, r"a\.gpkg: cannot be read as a GeoPackage"),
+        (other, "path", ReportError, r"other\.gpkg: cannot be read as a GeoPackage"),
+    ):
+        with pytest.raises(kind, match=text):
+            read_layer(file, layer)
+
+
+@pytest.mark.parametrize(
+    ("blob", "text"),
+    [
+        (b"XX" + HEAD[2:], "does not begin with GP"), (HEAD[:3] + b"\x0d" + HEAD[4:], "envelope of unknown kind 6"),
+        *((HEAD + struct.pack("<BII", 1, kind, 1), f"unknown type {kind}") for kind in (5002, 13)),
+    ],
+)  # fmt: skip
+def test_invalid_geometries_are_errors(blob: bytes, text: str) -> None:
+    with pytest.raises(ValueError, match=text):
+        geometry_parts(blob)
