@@ -9,11 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import MakeRun
+from conftest import MakeRun, page_of
 
-from thawslide import Run
 from thawslide.pages.markup import page_frame, table
-from thawslide.report_page import make_report
 
 CHROMIUM = next(
     (path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), ""
@@ -79,21 +77,27 @@ addEventListener("load", async () => {
 """
 
 
-def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
-    page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+def recorded(page: str, tmp_path: Path, *options: str) -> dict[str, Any]:
+    """Return the JSON that the scripts of a page record."""
     path = tmp_path / "page.html"
-    path.write_text(page.replace("</body>", PROBE.replace("ACTIONS", actions) + "</body>"), encoding="utf-8")
+    path.write_text(page, encoding="utf-8")
     outcome = subprocess.run(
         [
             CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}",
-            "--proxy-server=127.0.0.1:9", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1200,2400",
-            "--virtual-time-budget=60000", "--dump-dom", path.as_uri(),
+            *options, "--virtual-time-budget=60000", "--dump-dom", path.as_uri(),
         ],
         capture_output=True, text=True, timeout=600, check=True,
     )  # fmt: skip
-    recorded = re.search(r'data-found="([^"]*)"', outcome.stdout)
-    assert recorded, outcome.stderr[-2000:]
-    found: dict[str, Any] = json.loads(html.unescape(recorded[1]))
+    match = re.search(r'data-found="([^"]*)"', outcome.stdout)
+    assert match, outcome.stderr[-2000:]
+    found: dict[str, Any] = json.loads(html.unescape(match[1]))
+    return found
+
+
+def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
+    page = page_of(folder).replace("</body>", PROBE.replace("ACTIONS", actions) + "</body>")
+    offline = ["--proxy-server=127.0.0.1:9", "--host-resolver-rules=MAP * ~NOTFOUND"]
+    found = recorded(page, tmp_path, *offline, "--window-size=1200,2400")
     assert found["errors"] == []
     assert found["widths"] and min(found["widths"]) > 1000, "plots of a part that opens have the width of the page"
     assert all(name.startswith(("data:", "blob:")) for name in found["resources"]), "the page loads nothing"
@@ -105,15 +109,13 @@ def test_tables_fit_a_narrow_screen(tmp_path: Path, style: str) -> None:
     """Each row of a wide table is then a list, in which the values have the names of their columns."""
     head = ("result", "column", "unit", "mean", "SD", "P10", "P50", "P90") if "wide" in style else ("key", "value")
     row = ("maximum seismic force", "material.rock_ice.hydraulic_conductivity", "N", *["9,700,000"] * 5)
-    page = page_frame("A page", table([row[: len(head)]] * 3, style, head))
-    found = measured_narrow(page, tmp_path)
+    found = measured_narrow(page_frame("A page", table([row[: len(head)]] * 3, style, head)), tmp_path)
     assert found["width"] == 390 and found["wide"] == []
     assert found["names"] == ([f'"{name} "' for name in head[-5:]] if "wide" in style else [])
 
 
 def test_report_fits_a_narrow_screen(map_run: Path, tmp_path: Path) -> None:
-    page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
-    found = measured_narrow(page, tmp_path)
+    found = measured_narrow(page_of(map_run), tmp_path)
     assert found["width"] == 390 and found["wide"] == []
     assert found["plots"] == 2 and found["buttons"] == 0, "buttons would cover the legends"
 
@@ -121,19 +123,7 @@ def test_report_fits_a_narrow_screen(map_run: Path, tmp_path: Path) -> None:
 def measured_narrow(page: str, tmp_path: Path) -> dict[str, Any]:
     """Return the width of a page on a screen of 390 px, what scrolls, names of columns, and the number of plots."""
     frame = f'<iframe id="page" style="width: 390px; border: 0" srcdoc="{html.escape(page)}"></iframe>'
-    path = tmp_path / "narrow.html"
-    path.write_text(frame + MEASURE, encoding="utf-8")
-    outcome = subprocess.run(
-        [
-            CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}",
-            "--hide-scrollbars", "--virtual-time-budget=60000", "--dump-dom", path.as_uri(),
-        ],
-        capture_output=True, text=True, timeout=600, check=True,
-    )  # fmt: skip
-    recorded = re.search(r'data-found="([^"]*)"', outcome.stdout)
-    assert recorded, outcome.stderr[-2000:]
-    found: dict[str, Any] = json.loads(html.unescape(recorded[1]))
-    return found
+    return recorded(frame + MEASURE, tmp_path, "--hide-scrollbars")
 
 
 def test_section_view_follows_slider_and_field(make_run: MakeRun, tmp_path: Path) -> None:

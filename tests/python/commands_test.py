@@ -1,4 +1,4 @@
-"""Commands of the Python package end with a message, and figures do not depend on the user's settings."""
+"""Commands of the Python package end with a message, figures do not depend on settings, and the program is found."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from thawslide import commands
+from thawslide import commands, program
 
 SETTINGS = {
     "TeX": "text.usetex: True\n",
@@ -33,14 +33,12 @@ def report_into(output: Path, run: Path, folder: Path) -> bytes:
     return (output / "figures" / "motion.png").read_bytes()
 
 
-@pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)
-def test_figures_do_not_depend_on_the_settings_of_matplotlib(make_run: Any, tmp_path: Path, settings: str) -> None:
+def test_figures_do_not_depend_on_the_settings_of_matplotlib(make_run: Any, tmp_path: Path) -> None:
     run = make_run(rows=20)
-    plain, other = tmp_path / "plain", tmp_path / "other"
-    plain.mkdir()
-    other.mkdir()
-    (other / "matplotlibrc").write_text(settings)
-    assert report_into(tmp_path / "a", run, plain) == report_into(tmp_path / "b", run, other)
+    plain = report_into(tmp_path / "a", run, tmp_path)
+    for name, settings in SETTINGS.items():
+        (tmp_path / "matplotlibrc").write_text(settings)
+        assert report_into(tmp_path / "b", run, tmp_path) == plain, name
 
 
 @pytest.mark.parametrize(
@@ -86,12 +84,10 @@ def test_an_unexpected_error_ends_with_a_message(tmp_path: Path, name: str, faul
     logs = list(tmp_path.glob("thawslide-error-*.log"))
     assert len(logs) == (exit_code == 1)
     start = "thawslide-report" if name == "report" else f"thawslide {name}"
-    assert (done.returncode, done.stderr) == (
-        exit_code,
-        f"{start}: error: {text.format(log=logs[0] if logs else '')}\n",
-    )
-    if logs:
-        assert fault.partition("(")[0] in logs[0].read_text() and "Traceback" in logs[0].read_text()
+    message = f"{start}: error: {text.format(log=logs[0] if logs else '')}\n"
+    assert (done.returncode, done.stderr) == (exit_code, message)
+    for log in logs:
+        assert fault.partition("(")[0] in log.read_text() and "Traceback" in log.read_text()
 
 
 def test_without_a_folder_for_the_log_the_message_contains_it(tmp_path: Path) -> None:
@@ -107,3 +103,47 @@ def test_a_missing_database_of_proj_is_not_used(monkeypatch: pytest.MonkeyPatch,
     monkeypatch.setenv("PROJ_DATA", os.pathsep.join([str(tmp_path / "missing"), str(tmp_path)]))
     commands.forget_missing_proj_data()
     assert "PROJ_LIB" not in os.environ and os.environ["PROJ_DATA"].endswith(str(tmp_path))
+
+
+SCRIPT = """#!/bin/sh
+printf '%s|' "$0" "$@"
+command -v thawslide-report
+exit 3
+"""
+CALLER = "import sys; from pathlib import Path; from thawslide import program; program.PROGRAMS = (Path({!r}),); {}"
+
+
+def write_executable(path: Path, text: str) -> Path:
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text)
+    path.chmod(0o755)
+    return path
+
+
+def test_command_executes_the_program_and_finds_the_report_next_to_itself(tmp_path: Path) -> None:
+    inner = write_executable(tmp_path / "package" / "thawslide", SCRIPT)
+    report = write_executable(tmp_path / "bin" / "thawslide-report", "#!/bin/sh\n")
+    call = CALLER.format(str(inner), "sys.exit(program.main())")
+    command = write_executable(tmp_path / "bin" / "thawslide", f"#!{sys.executable}\n{call}\n")
+    done = subprocess.run([command, "run", "a b"], capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode == 3, done.stderr
+    assert done.stdout == f"{inner}|run|a b|{report}\n"
+
+
+def test_programs_are_found_in_order_starter_package_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    starter, own, other = (
+        write_executable(tmp_path / name / "thawslide", SCRIPT) for name in ("starter", "own", "path")
+    )
+    monkeypatch.setenv("THAWSLIDE_PROGRAM", str(starter))
+    monkeypatch.setenv("PATH", str(other.parent))
+    monkeypatch.setattr(program, "PROGRAMS", (tmp_path / "none", own))
+    for found in (starter, own, other):
+        assert program.find_program() == str(found)
+        found.unlink()
+    assert program.find_program() is None
+    monkeypatch.setattr(program, "PROGRAMS", (Path("/nowhere/thawslide"),))
+    monkeypatch.setattr(os, "execve", lambda *_: pytest.fail("executed"))
+    assert program.main() == 2
+    assert capsys.readouterr().err.startswith("error: /nowhere/thawslide: the program is missing")

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Fails, MakeRun, edit, update_facts
+from figure_parts import titled
 from map_runs import write_map_run
 
 from thawslide import ReportError, Run
@@ -22,15 +23,12 @@ def two_runs(make_run: MakeRun) -> list[Run]:
     return [Run(make_run(name="first")), Run(second)]
 
 
-def test_key_numbers_and_different_keys_of_the_cases_are_rows(two_runs: list[Run]) -> None:
+def test_key_numbers_different_keys_and_different_inputs_are_rows(two_runs: list[Run]) -> None:
     rows = {words: values for words, *values in number_rows(names_of(two_runs))}
     assert rows["Mean displacement"] == ["80 m", "160 m"]
     assert rows["Peak mean velocity"] == ["12 m/s (at 5 s)"] * 2
     assert rows["Thermal energy balance"] == ["closes (limit 1 %): below 0.0001 %"] * 2
     assert case_rows(names_of(two_runs)) == [["grid.cell", "2.0", "4.0"]]
-
-
-def test_different_input_files_are_rows(two_runs: list[Run]) -> None:
     for run, digit in zip(two_runs, "ab", strict=True):
         inputs = [{"path": f"x/{name}", "sha256": digit * 64} for name in ("dem.tif", "case.toml")]
         update_facts(run.folder, inputs=inputs)
@@ -41,8 +39,7 @@ def test_different_input_files_are_rows(two_runs: list[Run]) -> None:
 def test_histories_of_all_runs_are_in_each_panel(two_runs: list[Run]) -> None:
     figure = run_histories(names_of(two_runs))
     assert [len(axes.lines) for axes in figure.axes] == [2] * 6
-    displacement = figure.axes[1]
-    assert [float(np.asarray(line.get_ydata())[-1]) for line in displacement.lines] == [80.0, 160.0]
+    assert [float(np.asarray(line.get_ydata())[-1]) for line in figure.axes[1].lines] == [80.0, 160.0]
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["first", "second"]
 
 
@@ -50,11 +47,9 @@ def test_maps_have_one_scale(map_run: Path, tmp_path: Path) -> None:
     other = tmp_path / "other"
     write_map_run(other, 2)
     figure = run_maps({"one": Run(map_run), "two": Run(other)})
-    maps = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
-    assert [axes.get_title(loc="left") for axes in maps] == ["(a) one", "(b) two"]
-    norms = [axes.images[-1].norm for axes in maps]
-    assert (norms[0].vmin, norms[0].vmax) == (norms[1].vmin, norms[1].vmax)
-    assert maps[0].get_xlim() == maps[1].get_xlim()
+    one, two = titled(figure, "(a) one"), titled(figure, "(b) two")
+    norms = [axes.images[-1].norm for axes in (one, two)]
+    assert (norms[0].vmin, norms[0].vmax) == (norms[1].vmin, norms[1].vmax) and one.get_xlim() == two.get_xlim()
 
 
 def test_command_writes_to_first_run(two_runs: list[Run], capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -10,9 +10,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fuzz" / "python"))
 
 from readers import CORPUS, READERS, SEED, Folder, Reader
 
+from thawslide import Run
 from thawslide.key_numbers import key_numbers
 from thawslide.pages.facts import facts_of
-from thawslide.run_folder import Run
 
 SEEDS = sorted(CORPUS.glob(f"*/*{SEED}"))
 TIME_LIMIT = 10.0  # s, of processor time
@@ -37,20 +37,10 @@ def test_inputs_of_the_corpus_give_a_value_or_an_error(seed: Path) -> None:
     assert (expected in errors) if expected is not None else (errors == "" or seed.stem not in ("valid", "windows"))
 
 
-def _facts(folder: Path) -> None:
-    run = Run(folder)
-    facts_of(run.facts)
-    _ = run.last_state
-
-
-def _case(folder: Path) -> None:
-    run = Run(folder)
-    _ = run.title, run.dimension, run.per_metre, run.report_times, run.end_note
-
-
+OF_CASE = ("title", "dimension", "per_metre", "report_times", "end_note")
 OF_RUN = {
-    "case": Reader("case.toml", _case),
-    "facts": Reader("run.json", _facts),
+    "case": Reader("case.toml", lambda folder: [getattr(Run(folder), each) for each in OF_CASE]),
+    "facts": Reader("run.json", lambda folder: (facts_of(Run(folder).facts), Run(folder).last_state)),
     "history": Reader("history.csv", lambda folder: key_numbers(Run(folder))),
     "terrain": Reader("terrain.csv", lambda folder: Run(folder).terrain),
     "targets": Reader("inputs/targets.csv", lambda folder: Run(folder).targets),
@@ -85,7 +75,7 @@ OF_RUN = {
         ("case", "[grid]\ncell = 1e-9\nmin = [0, 0]\nmax = [9, 9]\n", "grid: invalid domain (found 0 to 9 with cells"),
         ("history", "", "history.csv: empty. Wait for the first row of the run."),
         ("history", "time_s,st", "history.csv: empty. Wait for the first row of the run."),
-        ("history", "time_s,step\n", "history.csv: no rows after the header"),
+        ("history", "time_s,step\n", "history.csv: no rows after the header. Wait for the first row of the run."),
         ("history", "a,b\n1,2\n", "history.csv:1: no column time_s. Select the folder of a run."),
         ("history", "time_s,step\n0,0\n1\n", "history.csv:3: damaged row (found 1 values for 2 columns)."),
         ("history", "time_s,step\n0,none\n", "history.csv:2: expected a number, found 'none'"),

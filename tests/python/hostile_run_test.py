@@ -1,6 +1,10 @@
-"""Reports of damaged run folders: intact data are plotted, damage is named."""
+"""Reports of damaged and incomplete run folders: intact data are plotted, damage and endings are named."""
 
+import errno
+import fcntl
 import json
+import os
+import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -8,14 +12,15 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, edit, history_columns, page_of, write_facts, write_history
-from map_runs import plotted
+from conftest import MakeRun, edit, history_columns, page_of, snapshot_file, update_facts, write_facts, write_history
+from figure_parts import maps_of, notes, plotted, titled
 
 from thawslide import Run
 from thawslide.atomic_file import atomic_file
 from thawslide.command_line import main
-from thawslide.figures import FIGURES
+from thawslide.pages.notes import ending_note
 from thawslide.report_page import make_report
+from thawslide.run_facts import LOCK, Ending, is_held
 
 
 def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tuple[int, str, str]:
@@ -25,23 +30,18 @@ def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tupl
     return code, capsys.readouterr().err, page.read_text(encoding="utf-8") if page.is_file() else ""
 
 
-def history(change: Callable[[str], str]) -> Callable[[Path], None]:
-    return lambda folder: write(folder / "history.csv", change((folder / "history.csv").read_text()))
-
-
-def write(path: Path, text: str) -> None:
-    path.write_text(text)
+def history(change: Callable[[str], str]) -> Callable[[Path], object]:
+    return lambda folder: (folder / "history.csv").write_text(change((folder / "history.csv").read_text()))
 
 
 def damage_row(text: str) -> str:
     lines = text.splitlines(keepends=True)
-    lines[40] = lines[40][:30] + "\n"
-    return "".join(lines)
+    return "".join([*lines[:40], lines[40][:30] + "\n", *lines[41:]])
 
 
 def damage_snapshots(folder: Path) -> None:
-    (folder / "snapshots" / "000003.vtkhdf").unlink()
-    (folder / "snapshots" / "000005.vtkhdf").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    snapshot_file(folder, 3).unlink()
+    snapshot_file(folder, 5).write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
 
 
 # Damage, exit code, words of standard error, words of the page; without words of the page, there is none.
@@ -50,10 +50,6 @@ DAMAGE = {
         history(lambda text: text[: len(text) // 2]), 0,
         ["warning: ", "history.csv: the last row is incomplete and is ignored"],
         ["history.csv: the last row is incomplete and is ignored"],
-    ),
-    "history without rows": (
-        history(lambda text: text[: text.index("\n") + 1]), 2,
-        ["history.csv: no rows after the header. Wait for the first row of the run."], [],
     ),
     "damaged row": (
         history(damage_row), 2,
@@ -68,13 +64,9 @@ DAMAGE = {
         lambda folder: (folder / "run.json").unlink(), 0, [],
         ["There is no run.json: it is unknown whether this run is complete."],
     ),
-    "killed run": (
-        lambda folder: write_facts(folder, status="running", simulated_time_s=0.0), 0, [],
-        ["This run terminated unexpectedly", "To continue from its last checkpoint: `thawslide resume FOLDER`."],
-    ),
 } | {
-    f"run.json with {text[:9]!r}": (lambda folder, text=text: write(folder / "run.json", text), 2, ["run.json"], [])
-    for text in ('{"status": "running", "simu', "[]", "", "\0" * 50)
+    f"run.json with {text[:9]!r}": (lambda run, text=text: (run / "run.json").write_text(text), 2, ["run.json"], [])
+    for text in ('{"status": "running", "simu', "", "\0" * 50)
 }  # fmt: skip
 
 
@@ -86,7 +78,7 @@ def test_damage_is_named(make_run: MakeRun, capsys: pytest.CaptureFixture[str], 
     code, errors, page = report(folder, capsys, *(["velocity"] if "snapshots" in name else ["motion"]))
     assert code == expected
     assert all(words in errors for words in errors_expected)
-    assert all(words.replace("FOLDER", folder.name) in page for words in page_expected)
+    assert all(words in page for words in page_expected)
     assert bool(page) == bool(page_expected)
 
 
@@ -98,12 +90,11 @@ def test_damaged_snapshots_have_no_times(make_run: MakeRun) -> None:
 
 def test_damaged_field_affects_only_its_figures(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
     folder = make_run()
-    with h5py.File(folder / "snapshots" / "000004.vtkhdf", "a") as file:
+    with h5py.File(snapshot_file(folder, 4), "a") as file:
         del file["VTKHDF/PointData/velocity"]
         file["VTKHDF/PointData/velocity"] = np.ones(3)
     code, errors, page = report(folder, capsys)
-    assert code == 2
-    assert "error: velocity: not plotted: " in errors
+    assert code == 2 and "error: velocity: not plotted: " in errors
     assert "000004.vtkhdf: damaged (found the shape (3,) of 'VTKHDF/PointData/velocity')" in errors
     assert "Not plotted: velocity, interactive view. Section &#x27;Missing figures&#x27; has the reasons." in page
     assert (folder / "figures" / "motion.png").is_file()
@@ -114,10 +105,8 @@ def test_damaged_maps_affect_their_figures(map_run: Path, damaged: str, capsys: 
     whole = (map_run / "maps" / damaged).read_bytes()
     (map_run / "maps" / damaged).write_bytes(whole[: len(whole) // 2])
     code, errors, page = report(map_run, capsys)
-    assert code == 2
-    assert f"{damaged}: cannot be read as a Geo" in errors
-    assert "Not plotted: " in page
-    assert (map_run / "figures" / "motion.png").is_file()
+    assert code == 2 and f"{damaged}: cannot be read as a Geo" in errors
+    assert "Not plotted: " in page and (map_run / "figures" / "motion.png").is_file()
 
 
 def test_overflow_affects_only_its_figures(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
@@ -130,8 +119,7 @@ def test_overflow_affects_only_its_figures(make_run: MakeRun, capsys: pytest.Cap
         warnings.simplefilter("always")
         code, errors, page = report(folder, capsys)
     assert [str(each.message) for each in noise if issubclass(each.category, RuntimeWarning)] == []
-    assert code == 2
-    assert "error: band: not plotted: " in errors
+    assert code == 2 and "error: band: not plotted: " in errors
     assert "Not plotted: band. Section &#x27;Missing figures&#x27; has the reasons." in page
     assert (folder / "figures" / "motion.png").is_file()
 
@@ -142,11 +130,11 @@ def test_special_characters_are_text(make_run: MakeRun) -> None:
     folder = make_run(targets='quantity,time_s,value,unit,source\nmean_velocity,4,9,m/s,"$\\nothing$, $5 and $6"\n')
     title = r"$\frac{ 5 $ & <b> 氷 \u0007 x"
     edit(folder / "case.toml", '"Block on a slope & <more>"', json.dumps(title))
-    figure = FIGURES["motion"].plot(Run(folder))
+    figure = plotted("motion", folder)
     figure.savefig(folder / "motion.png", dpi=50)
-    (speed, _), heading = figure.axes, figure.get_suptitle()
-    assert heading == f"{title}: motion"
-    assert r"reported: $\nothing$, $5 and $6" in [text.get_text() for text in speed.get_legend().get_texts()]
+    assert figure.get_suptitle() == f"{title}: motion"
+    legend = figure.axes[0].get_legend().get_texts()
+    assert r"reported: $\nothing$, $5 and $6" in [text.get_text() for text in legend]
     assert len(make_report(Run(folder), dpi=50).figures) == 8
 
 
@@ -164,11 +152,112 @@ def test_title_is_no_template_and_a_failed_write_keeps_the_file(make_run: MakeRu
         assert path.read_bytes() == before[path] and not list(path.parent.glob(".*part*"))
 
 
-def test_ticks_of_powers_are_formulas(map_run: Path, make_run: MakeRun) -> None:
-    figure = FIGURES["energy"].plot(Run(make_run()))
+def test_ticks_of_powers_are_formulas(make_run: MakeRun) -> None:
+    figure = plotted("energy", make_run())
     figure.draw_without_rendering()
     logarithmic = [axes for axes in figure.axes if axes.get_yscale() == "log"]
     powers = [text for axes in logarithmic for text in axes.get_yticklabels() if text.get_text()]
-    assert powers
-    assert all(text.get_parse_math() for text in powers)
-    assert plotted("extent_maps", map_run) is not None
+    assert powers and all(text.get_parse_math() for text in powers)
+
+
+def test_figures_of_a_stopped_run_have_its_last_time(map_run: Path) -> None:
+    update_facts(map_run, status="stopped", simulated_time_s=9.51)
+    with (map_run / "case.toml").open("a") as case:
+        case.write("[time]\nend = 60.0\n[report]\ntimes = [0.0, 2.0]\n")
+    note = "The run was stopped at 9.51 s of 60 s. "
+    extent = plotted("extent_maps", map_run)
+    assert titled(extent, "(d) flow thickness at\n9.51 s (stopped)")
+    assert titled(plotted("impact_maps", map_run), "(e) elevation change at 9.51 s (stopped)")
+    speeds, sections = plotted("slide_speed", map_run), plotted("cross_sections", map_run)
+    assert [axes.get_title(loc="left") for axes in maps_of(speeds)] == ["(a) t = 0 s", "(b) t = 2 s", "(c) t = 10 s"]
+    assert "at 9.51 s (stopped)" in [text.get_text() for text in sections.legends[0].get_texts()]
+    for figure in (extent, speeds, sections):
+        assert note in notes(figure).replace("\n", " ") + " "
+
+
+@pytest.mark.parametrize(
+    ("facts", "note", "state"),
+    [
+        ({"status": "done", "simulated_time_s": 10.0}, "", "10 s"),
+        ({"status": "failed", "simulated_time_s": 10.4087}, "The run failed at 10.4 s. ", "10.4 s (failed)"),
+        (
+            {"status": "running", "simulated_time_s": 0},
+            "The run terminated unexpectedly at 10 s. ",
+            "10 s (terminated?)",
+        ),
+    ],
+)
+def test_notes_state_the_ending(map_run: Path, facts: dict[str, object], note: str, state: str) -> None:
+    write_facts(map_run, **facts)
+    run = Run(map_run)
+    assert (run.end_note, run.last_state) == (note, state)
+
+
+def test_a_run_whose_lock_is_held_is_running_whatever_run_json_states(map_run: Path) -> None:
+    write_facts(map_run, status="running", simulated_time_s=0.0)
+    with (map_run / LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run = Run(map_run)
+        assert run.ending is Ending.RUNNING
+        assert (run.end_note, run.last_state) == ("The run was still running at 10 s. ", "10 s (still running)")
+        assert "(was still running when this page was written)" in ending_note(run)
+    assert Run(map_run).ending is Ending.KILLED, "the file exists, but no process holds it"
+    with (map_run / LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        for status in ("stopped", "done"):
+            write_facts(map_run, status=status)
+            assert Run(map_run).ending is Ending.RUNNING
+        (map_run / "run.json").unlink()
+        assert Run(map_run).ending is Ending.RUNNING
+
+
+def test_ending_is_undetermined_without_locks(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    (map_run / LOCK).touch()
+    write_facts(map_run, status="running", simulated_time_s=0.0)
+    long_ago = time.time() - 3 * 3600
+    for file in map_run.rglob("*"):
+        os.utime(file, (long_ago, long_ago))
+    assert is_held(map_run / LOCK) is None
+    run = Run(map_run)
+    assert run.ending is Ending.UNDETERMINED
+    assert run.end_note == "The run was running or terminated unexpectedly at 10 s. "
+    assert ending_note(run) == (
+        "The status of this run in run.json is running. It cannot be checked, because the file system has no locks. "
+        "The last file was written 3 hours before this page. If the run has terminated, "
+        f"`thawslide resume {map_run}` continues from its last checkpoint. The figures show the results so far."
+    )
+    write_facts(map_run)
+    assert Run(map_run).ending is Ending.DONE
+
+
+def test_lock_is_checked_without_keeping_it_or_blocking(tmp_path: Path) -> None:
+    lock = tmp_path / LOCK
+    lock.touch()
+    with lock.open() as other:
+        fcntl.flock(other, fcntl.LOCK_SH)
+        assert not is_held(lock)
+    with lock.open() as starts:
+        assert not is_held(lock)
+        fcntl.flock(starts, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    os.mkfifo(tmp_path / "pipe")
+    assert not is_held(tmp_path / "pipe") and not is_held(tmp_path / "nothing")
+    (tmp_path / "circle").symlink_to("circle")
+    assert not is_held(tmp_path / "circle")
+
+
+def test_page_has_warnings_and_the_command_to_resume(map_run: Path) -> None:
+    write_facts(map_run, status="running")
+    page = page_of(map_run)
+    assert "This run terminated unexpectedly: its status in run.json is running, but no process holds run.lock." in page
+    assert f"To continue from its last checkpoint: `thawslide resume {map_run.name}`." in page
+    parts = [{"warnings": []}, {}, {"warnings": ["history.csv lacks 2 of the 16 rows"]}, {"warnings": 3}, 4]
+    write_facts(map_run, parts=parts)
+    assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page_of(map_run)
+    (map_run / "run.json").unlink()
+    run = Run(map_run)
+    assert ending_note(run) == "There is no run.json: it is unknown whether this run is complete."
+    assert run.end_note == ""
