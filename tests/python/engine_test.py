@@ -13,7 +13,7 @@ from reproduction import engine
 from reproduction.studies import STUDIES
 from reproduction.study import ROOT, Job, Place, Study, StudyError
 from reproduction.tables import markdown, rewrapped, with_marks
-from thawslide.errors import ReportError
+from thawslide import ReportError
 
 # Writes the files of a run that the engine reads; the settings bad, broken and slow change its end.
 PROGRAM = """import hashlib, json, pathlib, sys, time
@@ -67,15 +67,11 @@ def test_complete_runs_are_reused_and_recorded(place: Place, lines: list[str]) -
     assert place.perform(JOBS) == []
     assert lines[4:] == ["3 runs, 3 of them complete"]
     assert (place.runs / "a" / "run.json").stat().st_mtime_ns == stamp
-    words = engine.read_record(place.runs / "b").command  # type: ignore[union-attr]
-    assert words[1:] == [
-        "run", str(place.cases / "case.toml"), "--output", str(place.runs / "b"), "--threads", "1", "--set", "x=1",
-    ]  # fmt: skip
-    assert engine.is_done(place.runs / "block.csv")
-    assert 0.0 < engine.processor_time(place.runs / "a") < 10.0
+    words, case = engine.read_record(place.runs / "b").command, str(place.cases / "case.toml")  # type: ignore[union-attr]
+    assert words[1:] == ["run", case, "--output", str(place.runs / "b"), "--threads", "1", "--set", "x=1"]
+    assert engine.is_done(place.runs / "block.csv") and 0.0 < engine.processor_time(place.runs / "a") < 10.0
     facts = json.loads((place.runs / "a.record.json").read_text())
-    assert list(facts["inputs"]) == [str(place.cases / "case.toml")]
-    assert facts["program"] == "0123abcd" and facts["code"] == 0
+    assert (list(facts["inputs"]), facts["program"], facts["code"]) == ([case], "0123abcd", 0)
 
 
 @pytest.mark.parametrize("change", ["case", "settings", "commit", "results", "record"])
@@ -119,8 +115,7 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
     with pytest.raises(StudyError, match=r"bad: error: no such key bad; broken: error: the run failed at 3 s\. The"):
         place.perform(jobs)
     assert any("min left: bad: error: no such key bad" in line for line in lines)
-    assert engine.failure(place.runs / "good") == ""
-    assert engine.failure(place.runs / "none") == "not run"
+    assert engine.failure(place.runs / "good") == "" and engine.failure(place.runs / "none") == "not run"
     assert engine.log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
     # A run that failed keeps its results and is not repeated; one without results is.
     assert engine.is_current(place.task(jobs[2])) and not engine.is_current(place.task(jobs[1]))
@@ -141,29 +136,15 @@ def test_run_at_rest_is_stopped_and_complete(place: Place) -> None:
     assert engine.is_current(place.task(Job("a", sets=("slow=1",), until_rest=True)))
 
 
-def test_expensive_runs_start_first_and_names_are_unique(place: Place, lines: list[str]) -> None:
+def test_expensive_runs_start_first_names_are_unique_and_parts_select_runs(place: Place, lines: list[str]) -> None:
     tasks = [place.task(Job(key, cost=cost)) for key, cost in (("a", 1.0), ("b", 3.0), ("c", 2.0))]
     engine.perform(tasks, 1, lines.append)
     assert [line.split(": ")[1].split()[0] for line in lines[1:]] == ["b", "c", "a"]
     with pytest.raises(ValueError, match=r"runs with the same name: \['a'\]"):
         engine.perform([tasks[0], tasks[0]], 1, lines.append)
-
-
-def test_parts_select_runs(place: Place) -> None:
-    chosen = replace(place, parts=("plane-*", "alr"))
+    chosen = replace(place, runs=place.runs / "chosen", parts=("plane-*", "alr"))
     chosen.perform([Job("plane-20"), Job("plane-10"), Job("alr"), Job("alr-rough")])
-    assert sorted(path.name for path in place.runs.iterdir() if path.is_dir()) == ["alr", "plane-10", "plane-20"]
-
-
-def made(name: str, done: list[str], **more: object) -> Study:
-    """Return a study that lists its name when its page is written."""
-
-    def write(place: Place) -> Sequence[str]:
-        done.append(name)
-        place.page(f"docs/{name}.md").write_text(name)
-        return ["a number differs"] if name == "wrong" else []
-
-    return Study(name, (f"docs/{name}.md",), 1.0, write, **more)  # type: ignore[arg-type]
+    assert sorted(path.name for path in chosen.runs.iterdir() if path.is_dir()) == ["alr", "plane-10", "plane-20"]
 
 
 def stage_of(place: Place) -> list[Job]:
@@ -172,15 +153,23 @@ def stage_of(place: Place) -> list[Job]:
 
 @pytest.fixture
 def studies(place: Place, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Replace the studies by small ones; return the names of those whose page is written."""
     done: list[str] = []
+
+    def made(name: str, **more: object) -> Study:
+        def write(place: Place) -> Sequence[str]:
+            done.append(name)
+            place.page(f"docs/{name}.md").write_text(name)
+            return ["a number differs"] if name == "wrong" else []
+
+        return Study(name, (f"docs/{name}.md",), 1.0, write, **more)  # type: ignore[arg-type]
+
     small = (
-        made("staged", done, stages=(lambda place: [Job("first")], stage_of), cases=place.cases),
-        made("refused", done, stages=(lambda place: [Job("x", sets=("bad=1",))],), cases=place.cases),
-        made("wrong", done),
-        made("absent", done, needs=lambda place: [place.data / "none.tif"], remedy="Copy it."),
-        made("frozen", done, is_frozen=True),
-        made("last", done),
-    )
+        made("staged", stages=(lambda place: [Job("first")], stage_of), cases=place.cases),
+        made("refused", stages=(lambda place: [Job("x", sets=("bad=1",))],), cases=place.cases), made("wrong"),
+        made("absent", needs=lambda place: [place.data / "none.tif"], remedy="Copy it."),
+        made("frozen", is_frozen=True), made("last"),
+    )  # fmt: skip
     monkeypatch.setattr(command, "STUDIES", {study.name: study for study in small})
     return done
 
@@ -205,14 +194,11 @@ def test_studies_are_made_if_some_fail(place: Place, studies: list[str], capsys:
     ("words", "expected", "code"),
     [
         (["--only", "last", "staged"], ["staged", "last"], 0),  # in the order of the studies
-        (["--only", "frozen"], ["frozen"], 0),
-        (["--only", "absent"], [], 0),
-        (["--only", "staged:first", "staged:second"], ["staged"], 0),
+        (["--only", "frozen"], ["frozen"], 0), (["--only", "absent"], [], 0), (["--only", "wrong"], ["wrong"], 1),
+        (["--only", "staged:first", "staged:second"], ["staged"], 0), (["--only", "none"], [], 2),
         (["--draw-only", "--only", "refused", "last"], ["refused", "last"], 0),
-        (["--only", "wrong"], ["wrong"], 1),
-        (["--only", "none"], [], 2),
     ],
-)
+)  # fmt: skip
 def test_studies_are_chosen(place: Place, studies: list[str], words: list[str], expected: list[str], code: int) -> None:
     assert call(place, *words) == code
     assert studies == expected
@@ -237,8 +223,5 @@ def test_every_page_of_results_names_the_command_that_makes_it() -> None:
 def test_pages_have_tables_marks_and_wrapped_paragraphs() -> None:
     assert markdown([["", "a"], ["b", "1"]]) == "|  | a |\n| --- | --- |\n| b | 1 |"
     assert with_marks("x\n\n@one@\n\n@two@\n\ny", {"one": "", "two": "2"}) == "x\n\n2\n\ny"
-    text = "# A\n\n" + "word " * 40 + "\n\n- item\n- " + "long " * 30 + "\n\n| a |\n| - |"
-    lines = rewrapped(text).splitlines()
-    assert max(map(len, lines)) <= 120 and lines[0] == "# A" and lines[-2:] == ["| a |", "| - |"]
-    assert [line for line in lines if line.startswith("  long")]
-    assert rewrapped("\n".join(lines)) == "\n".join(lines) + "\n"
+    text = rewrapped("# A\n\n" + "word " * 40 + "\n\n- item\n- " + "long " * 30 + "\n\n| a |\n| - |")
+    assert max(map(len, text.splitlines())) <= 120 and "\n  long" in text and rewrapped(text) == text

@@ -1,4 +1,4 @@
-"""Comparisons with SHALTOP and of cells: deposits, orders of convergence."""
+"""Comparisons with SHALTOP and of cells: deposits, orders of convergence, and the tables of docs/refinement.md."""
 
 import json
 import math
@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reproduction.studies import frank, refinement
-from thawslide.errors import ReportError
+from reproduction.studies import frank, refinement, refinement_page
+from reproduction.studies.refinement import PLANE_CELLS, PLANE_THICKNESS, Deposit
+from thawslide import ReportError
 from thawslide.maps import Grid, Map
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "frank"
@@ -30,15 +31,16 @@ def test_numbers_of_a_known_deposit_are_exact() -> None:
     highest, speed = block(2, 40, 5.0), block(2, 40, 12.0)
     speed.values[15, 20], speed.values[30, 50] = 50.0, 99.0  # the latter where nothing was thick
     found = frank.figures(frank.Deposit(final, highest, speed), terrain, pile)
-    assert (found.x, found.y) == (pytest.approx(30.0 + 20.0 * 34.5), pytest.approx(30.0 + 20.0 * 14.5))
-    assert (found.area, found.passed) == (pytest.approx(100 * 400e-6), pytest.approx(380 * 400e-6))
-    assert found.farthest == 30.0 + 20.0 * 39
     assert (found.speed, found.high_speed, found.usual_speed, found.thickness) == (50.0, 12.0, 12.0, 4.0)
-    assert found.volume == pytest.approx((100 * 4.0 + 100 * 0.9) * 400e-6)
+    assert found.farthest == 30.0 + 20.0 * 39
     # From the top of the pile, its uppermost column, to the farthest corner.
-    assert found.travel == pytest.approx(math.hypot(37 * 20.0, 9 * 20.0))
-    assert found.drop == pytest.approx(30.0 + 0.5 * 37 * 20.0)
-    assert found.reach_angle == pytest.approx(math.degrees(math.atan2(found.drop, found.travel)))
+    travel, drop = math.hypot(37 * 20.0, 9 * 20.0), 30.0 + 0.5 * 37 * 20.0
+    expected = {
+        "x": 30.0 + 20.0 * 34.5, "y": 30.0 + 20.0 * 14.5, "area": 100 * 400e-6, "passed": 380 * 400e-6,
+        "volume": (100 * 4.0 + 100 * 0.9) * 400e-6, "travel": travel, "drop": drop,
+        "reach_angle": math.degrees(math.atan2(drop, travel)),
+    }  # fmt: skip
+    assert {name: getattr(found, name) for name in expected} == pytest.approx(expected)
 
 
 def test_difference_of_deposits_and_spread_are_exact() -> None:
@@ -66,23 +68,18 @@ def test_maps_are_on_the_grid_of_the_file_of_the_other_code(tmp_path: Path) -> N
     assert found.values.tolist() == [[4.0, 5.0, 6.0], [1.0, 2.0, 3.0]]
 
 
-@pytest.mark.parametrize(
-    ("angle", "area", "x", "y", "farthest"),
-    [
-        (10, 2.78, 2696, 2919, 3910),
-        (15, 1.83, 2121, 2580, 3150),
-        (20, 1.24, 1778, 2326, 2530),
-        (25, 1.02, 1538, 2147, 2210),
-    ],
-)
-def test_results_of_shaltop_are_as_published(angle: int, area: float, x: float, y: float, farthest: float) -> None:
+PUBLISHED = {10: (2.78, 2696, 2919, 3910), 15: (1.83, 2121, 2580, 3150), 20: (1.24, 1778, 2326, 2530),
+             25: (1.02, 1538, 2147, 2210)}  # fmt: skip
+
+
+@pytest.mark.parametrize("angle", PUBLISHED)
+def test_results_of_shaltop_are_as_published(angle: int) -> None:
     if not DATA.is_dir():
         pytest.skip("the Frank slide (frank/) is not in ../shared/data")
     terrain, pile = (frank.read_grid(DATA / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
     assert pile.volume() == pytest.approx(36.0e6, rel=1e-4)
     found = frank.figures(frank.read_shaltop(DATA, angle, terrain), terrain, pile)
-    assert round(found.area, 2) == area
-    assert (round(found.x), round(found.y), round(found.farthest)) == (x, y, farthest)
+    assert (round(found.area, 2), round(found.x), round(found.y), round(found.farthest)) == PUBLISHED[angle]
 
 
 @pytest.mark.parametrize("power", [0.5, 1.0, 2.0])
@@ -99,7 +96,35 @@ def test_domain_of_each_cell_is_a_whole_number_of_cells(cell: float) -> None:
     low, high = (np.array(json.loads(change.split("=")[1])) for change in refinement.alr_domain(cell))
     counts = (high - low) / cell
     assert counts == pytest.approx(np.round(counts), abs=1e-6)
-    size = high - low
-    assert (size[:2] <= np.array([2046.0, 4521.0]) + 1e-9).all()
-    assert size[2] >= 2059.2 - 1e-9
-    assert (np.abs(size - [2046.0, 4521.0, 2059.2]) < cell).all()
+    longer = high - low - [2046.0, 4521.0, 2059.2]
+    assert (longer[:2] <= 1e-9).all() and longer[2] >= -1e-9 and (np.abs(longer) < cell).all()
+
+
+def deposit(cell: float) -> Deposit:
+    """Return a deposit with errors of first order: 1,000, 2,000 and 3,000 m2, 8 m and 100 m on cells of no size."""
+    error = cell / 40.0
+    return Deposit(
+        cell=cell, covered=1_000.0 - 400.0 * error, inundated=2_000.0 - 600.0 * error,
+        affected=3_000.0 - 900.0 * error, thickness=8.0 + 6.0 * error, width=100.0 - 30.0 * error,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("cells", [PLANE_CELLS, PLANE_CELLS[:-1], PLANE_CELLS[:2]])
+def test_limits_of_deposits_are_of_first_order(cells: tuple[float, ...]) -> None:
+    table = refinement_page.deposit_table([deposit(cell) for cell in cells])
+    rows = {line.split("|")[1].strip(): [text.strip() for text in line.split("|")[2:-1]] for line in table.splitlines()}
+    assert rows["cells across the release"] == [*(f"{PLANE_THICKNESS / cell:.3g}" for cell in cells), ""]
+    areas = [rows[f"{name} area (m2)"][-1] for name in ("deposit", "inundated", "affected")]
+    assert areas == ["1,000", "2,000", "3,000"]
+    assert rows["standard deviation of the deposit across the slope (m)"][-1] == "100"
+    assert rows["maximum thickness of the deposit (m)"] == [*(f"{8.0 + 0.15 * cell:.1f}" for cell in cells), ""]
+
+
+@pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
+def test_orders_and_limits_are_those_of_the_cells_that_halve(order: float) -> None:
+    values = [100.0 - 30.0 * (cell / 40.0) ** order for cell in refinement_page.HALVING]
+    assert refinement_page.order_and_limit(values, 0) == (f"{order:.1f}", "100")
+
+
+def test_value_without_monotonic_convergence_has_no_order() -> None:
+    assert refinement_page.order_and_limit([1.0, 2.0, 1.5], 1) == ("not monotonic", "")

@@ -37,10 +37,11 @@ def test_failure_line_of_a_linear_field_is_exact(slope: float) -> None:
 def test_failure_line_of_material_at_rest_is_its_top_and_measured_lines_are_complete() -> None:
     start = np.array([[0.05, 0.01], [0.05, 0.03], [0.05, 0.05]])
     assert laboratory.failure_line(start, np.zeros(3), np.array([0.05]), 0.001, 0.02) == [laboratory.BAR_HEIGHT]
-    x, height = laboratory.read_points(laboratory.MEASURED / "surface.csv")
-    assert (len(x), x[-1], height[-1]) == (23, 0.442348498, 0.001519511)
-    x, height = laboratory.read_points(laboratory.MEASURED / "failure.csv")
-    assert (len(x), x[0], height[0]) == (9, 0.021159264, 0.098901077)
+    for name, count, place, x, height in (
+        ("surface", 23, -1, 0.442348498, 0.001519511), ("failure", 9, 0, 0.021159264, 0.098901077),
+    ):  # fmt: skip
+        found = laboratory.read_points(laboratory.MEASURED / f"{name}.csv")
+        assert (len(found[0]), found[0][place], found[1][place]) == (count, x, height)
 
 
 def test_runs_have_unique_names_and_keys() -> None:
@@ -71,17 +72,13 @@ def test_figure_of_bars_has_runs_and_measurements() -> None:
     for panel, transfer in zip(laboratory_page.bar_figure(found).axes, laboratory.TRANSFERS, strict=True):
         lines = {str(line.get_label()): line for line in panel.lines}
         for cell in laboratory.BAR_CELLS[1:]:
-            for words, profile in (
-                ("surface", found[transfer, cell].profile),
-                ("failure line", found[transfer, cell].failure_profile),
-            ):
-                line = lines[f"{words}, cells of {cell:g} mm"]
-                assert np.array_equal(line.get_xdata(), profile[0])
-                assert np.array_equal(line.get_ydata(), profile[1])
-        for words, name in (("surface", "surface"), ("failure line", "failure")):
-            x, height = laboratory.read_points(laboratory.MEASURED / f"{name}.csv")
+            of_cell = found[transfer, cell]
+            for words, profile in ("surface", of_cell.profile), ("failure line", of_cell.failure_profile):
+                np.testing.assert_array_equal(lines[f"{words}, cells of {cell:g} mm"].get_data(), profile)
+        for words, name in ("surface", "surface"), ("failure line", "failure"):
+            measured = laboratory.read_points(laboratory.MEASURED / f"{name}.csv")
             line = lines[f"{words}, measured (MaterialPointSolver.jl; Bui et al. 2008)"]
-            assert np.array_equal(line.get_xdata(), x) and np.array_equal(line.get_ydata(), height)
+            np.testing.assert_array_equal(line.get_data(), measured)
 
 
 def test_table_of_bars_has_offsets_and_stays_in_the_page() -> None:
@@ -90,6 +87,5 @@ def test_table_of_bars_has_offsets_and_stays_in_the_page() -> None:
     assert (rows[2][1:], rows[3][1:]) == (["2.0", "3.0 |"], ["+2.0", "-3.0 |"])
     assert (rows[4][1:], rows[5][1:]) == (["+2", "-3 |"], ["", "5.0 |"])
     page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
-    lines = rewrapped(page).splitlines()
-    assert lines[:4] == ["# Title", "", "- one two", "- " + "word " * 22 + "word"]
-    assert (lines[4], lines[5:]) == ("  " + "word " * 16 + "word", ["", "| a |", "| --- |", "", "last"])
+    long = ["- " + "word " * 22 + "word", "  " + "word " * 16 + "word"]
+    assert rewrapped(page).splitlines() == ["# Title", "", "- one two", *long, "", "| a |", "| --- |", "", "last"]

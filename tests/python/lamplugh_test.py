@@ -1,19 +1,19 @@
-"""Measures of Sec. 4, and rows of the one-at-a-time table, on constructed run folders."""
+"""Measures of Sec. 4, rows of the one-at-a-time table, and point masses on a profile."""
 
 import math
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun
+from conftest import MakeRun, change_snapshot, write_history
 
 from reproduction.engine import at_rest
 from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
 from reproduction.one_at_a_time import Outcome, end_of, outcome, table, table_row
+from reproduction.point_masses import GRAVITY, Friction, move, smooth_profile
 from reproduction.runs import LAMPLUGH_BLOCKS
 from reproduction.study import Job
-from thawslide.run_folder import Run
+from thawslide import Run
 
 
 def write_ground(folder: Path) -> None:
@@ -21,8 +21,7 @@ def write_ground(folder: Path) -> None:
     x = np.arange(0.0, 12000.0, 10.0)
     slope = np.where(x < 1000.0, 48.0, np.where(x < 2000.0, 8.0, 1.3))
     z = 2150.0 - np.concatenate(([0.0], np.cumsum(10.0 * np.tan(np.radians(slope[:-1])))))
-    rows = "".join(f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), z.tolist(), strict=True))
-    (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows)
+    write_history(folder / "terrain.csv", {"distance_m": x, "terrain_elevation_m": z})
 
 
 def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun) -> None:
@@ -34,14 +33,12 @@ def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun
     assert found[0].start == pytest.approx(1000.0, abs=20.0)
     assert (found[0].end, found[-1].end) == (pytest.approx(2000.0, abs=20.0), FRONT)
     # A quarter of the particles into each of B, D and F, another beyond the front.
-    with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
-        points = file["VTKHDF/Points"]
-        x = np.repeat([1500.0, 0.5 * (found[2].start + found[2].end), 10000.0, 11000.0], len(points) // 4)
-        points[:, 0] = x
-        volume = float(np.sum(file["VTKHDF/PointData/volume"]))
+    points = Run(folder).snapshot(10).points.copy()
+    points[:, 0] = np.repeat([1500.0, 0.5 * (found[2].start + found[2].end), 10000.0, 11000.0], 20)
+    change_snapshot(folder, 10, points=points)
     fractions = zone_fractions(Run(folder))
     assert {letter: fraction for letter, (fraction, _) in fractions.items()} == dict(B=25, C=0, D=25, E=0, F=25)
-    assert fractions["F"][1] == pytest.approx(0.25 * volume / 1000.0)
+    assert fractions["F"][1] == pytest.approx(0.25 * 80.0 / 1000.0)  # 80 particles of 1 m3
 
 
 def test_base_traction_and_particles_near_the_terrain(make_run: MakeRun) -> None:
@@ -70,22 +67,17 @@ def test_measures_of_blocks_are_those_of_their_histories(make_run: MakeRun) -> N
     assert read_block(folder.parent / "lamplugh-block.csv")["time_s"].tolist() == [0, 1, 2, 3]
 
 
-def test_rest_differs_from_a_pause_at_the_start() -> None:
+def test_outcome_has_the_results_of_a_run_and_rest_differs_from_a_pause(make_run: MakeRun) -> None:
+    found = outcome(make_run())
+    values = [found.peak, found.peak_time, found.displacement, found.runout, found.front, found.length]
+    assert values == pytest.approx([12.0, 5.0, 80.0, 160.0, 120.0, 19.0])
+    assert found.start_time == pytest.approx(3.0409, abs=2e-3)  # 12 sin2 = 8
+    assert found.stop_time == pytest.approx(9.7, abs=0.1) and (found.failure, end_of(found)) == ("", "stopped")
     times = [float(t) for t in range(121)]
     moving = [max(0.0, 10.0 - abs(t - 50.0)) for t in times]
     assert not at_rest(times[:30], moving[:30]) and not at_rest(times[:66], moving[:66])
     assert at_rest(times[:72], moving[:72]) and at_rest(times, [0.3] * 121)
     assert not at_rest([], [])
-
-
-def test_outcome_has_the_results_of_a_run(make_run: MakeRun) -> None:
-    found = outcome(make_run())
-    assert (found.failure, found.peak) == ("", pytest.approx(12.0))
-    assert found.peak_time == pytest.approx(5.0)
-    assert found.start_time == pytest.approx(3.0409, abs=2e-3)  # 12 sin2 = 8
-    assert (found.stop_time, found.displacement) == (pytest.approx(9.7, abs=0.1), pytest.approx(80.0))
-    assert (found.runout, found.front) == (pytest.approx(160.0), pytest.approx(120.0))
-    assert (end_of(found), found.length) == ("stopped", pytest.approx(19.0))
 
 
 def test_rows_state_failures() -> None:
@@ -100,3 +92,51 @@ def test_rows_state_failures() -> None:
     going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 200.0, 9.0)
     assert "not: 9 m/s at 200" in table_row(row, going)
     assert [end_of(each) for each in (Outcome(), still, broken, going)] == ["missing", "never", "broken", "going"]
+
+
+X = np.arange(0.0, 4000.0, 10.0)
+PLANE, BENT = (smooth_profile(X, z) for z in (2000.0 - 0.5 * X, np.where(X < 1000.0, 1500.0 - 0.5 * X, 1000.0)))
+ANGLE = np.arctan(0.5)
+
+
+def friction(*coefficients: float) -> Friction:
+    """Return one coefficient for each sample, everywhere."""
+    values = np.array(coefficients)[:, None]
+    return Friction(values, values, np.full_like(values, 50.0), values, 1e9)
+
+
+def test_a_point_on_a_plane_has_the_closed_form() -> None:
+    found = move(PLANE, np.array([500.0]), np.zeros((2, 1)), friction(0.1, 0.3), 10.0, 0.01, chained=False)
+    for sample, coefficient in enumerate((0.1, 0.3)):
+        down = GRAVITY * (np.sin(ANGLE) - coefficient * np.cos(ANGLE))
+        inner = slice(5, -5)
+        assert found.up[sample, inner] == pytest.approx(down * np.sin(ANGLE), rel=1e-3)
+        assert found.along[sample, inner] == pytest.approx(-down * np.cos(ANGLE), rel=1e-3)
+
+    held = move(PLANE, np.array([500.0]), np.zeros((1, 1)), friction(0.6), 2.0, 0.01, chained=False)
+    assert np.all(held.up == 0.0) and np.all(held.along == 0.0)
+
+
+def test_momentum_is_the_integral_of_the_force_past_a_bend() -> None:
+    found = move(BENT, np.array([700.0]), np.zeros((1, 1)), friction(0.0), 20.0, 0.005, chained=False)
+    speed = -np.cumsum(found.along[0]) * 0.005
+    drop = np.interp(700.0, BENT.x, BENT.z) - BENT.z[-1]
+    assert speed[-10] == pytest.approx(np.sqrt(2.0 * GRAVITY * drop), rel=5e-3)
+    assert np.sum(found.up[0]) * 0.005 == pytest.approx(0.0, abs=0.2)
+
+
+@pytest.mark.parametrize("chained", [False, True])
+def test_a_part_that_is_held_leaves_later(chained: bool) -> None:
+    starts = np.array([[0.0, 0.0, 3.0, 3.0]])
+    found = move(PLANE, np.array([600.0, 580.0, 560.0, 540.0]), starts, friction(0.2), 6.0, 0.01, chained)
+    before, after = found.up[0, 200], found.up[0, 500]
+    assert after == pytest.approx(2.0 * before, rel=1e-2)
+
+
+def test_a_chain_has_one_acceleration() -> None:
+    places = np.array([1100.0, 700.0])  # on the flat, and on the slope
+    found = move(BENT, places, np.zeros((1, 2)), friction(0.0), 2.0, 0.01, chained=True)
+    common = 0.5 * GRAVITY * np.sin(ANGLE)
+    inner = slice(5, -5)
+    assert found.along[0, inner] == pytest.approx(-0.5 * common * (1.0 + np.cos(ANGLE)), rel=1e-3)
+    assert found.up[0, inner] == pytest.approx(0.5 * common * np.sin(ANGLE), rel=1e-3)

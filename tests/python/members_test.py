@@ -1,16 +1,18 @@
-"""Page of members with initial noise: results of a run, met rows, variants, aligned times."""
+"""Members with initial noise: results, met rows, variants, aligned times; influence of numerical parameters."""
+
+import dataclasses
+import tomllib
 
 import numpy as np
 import pytest
-from band_columns_test import column_history
-from conftest import MakeRun, write_history
+from conftest import MakeRun, column_history, write_history
 from force_record_test import pulse, write_record
 
-from reproduction import members
+from reproduction import members, numerics
 from reproduction.lamplugh import INVERSION
 from reproduction.member_figures import MEMBER, members_over_time, on_common_times
 from reproduction.members import Observed, is_met, verdict
-from reproduction.study import Job
+from reproduction.study import ROOT, Job
 from thawslide import Run
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
@@ -18,8 +20,7 @@ from thawslide.figures.force_record import compared
 START = 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
 GOOD = Observed(
     start=20.0, end=220.0, peak=80.0, rise=35.0, displacement=5.7, runout=10.0, stop=180.0, force=0.28, reversal=10.0,
-    dilation=5.0, hottest=190.0,
-    ratio=1.0,
+    dilation=5.0, hottest=190.0, ratio=1.0,
 )  # fmt: skip
 ACCEPTED = {each.name: each for each in members.QUANTITIES}
 CASE = {
@@ -36,17 +37,14 @@ def changed(**values: float | str) -> Observed:
 def test_observed_has_the_results_of_a_run_and_no_stop_in_motion(make_run: MakeRun) -> None:
     folder = make_run(history=column_history())
     found = members.observed(folder)
-    assert (found.failure, found.start) == ("", pytest.approx(START, abs=2e-3))
-    assert (found.peak, found.rise) == (pytest.approx(12.0), pytest.approx(5.0 - START, abs=2e-3))
-    assert found.stop == pytest.approx(9.8 + 40.0 - START, abs=2e-3)  # below 0.1 m/s from 9.709 s on
-    assert found.end == pytest.approx(50.0 - START, abs=2e-3)
-    assert (found.displacement, found.runout) == (pytest.approx(0.08), pytest.approx(0.16))
+    # Below 0.1 m/s from 9.709 s on.
+    times = [START, 5.0 - START, 9.8 + 40.0 - START, 50.0 - START]
+    assert [found.start, found.rise, found.stop, found.end] == pytest.approx(times, abs=2e-3)
+    values = [found.peak, found.displacement, found.runout, found.hottest, found.ratio, found.dilation]
+    assert values == pytest.approx([12.0, 0.08, 0.16, 170.0, 1.0, 3.0])
     assert found.force == pytest.approx(np.nanmax(force_in_band(Run(folder), INVERSION)) / 1e12)
-    assert (found.hottest, found.ratio) == (pytest.approx(170.0), pytest.approx(1.0))
-    assert found.dilation == pytest.approx(3.0)
-    assert np.isnan(found.reversal), "no record in the case"
-    columns = column_history()
-    columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
+    assert found.failure == "" and np.isnan(found.reversal), "no record in the case"
+    columns = column_history() | {"mean_velocity_m_s": np.linspace(0.0, 10.0, 101)}
     folder = make_run(name="moving", history=columns, facts={"status": "failed", "message": "it left"})
     found = members.observed(folder)
     assert (found.stop, found.failure) == (float("inf"), "it left")
@@ -85,10 +83,13 @@ def test_verdict_lists_rows_that_are_met_and_not_met() -> None:
         "10 to 200 s)\n- results of other models: 4 of 4 (peak "
     )
     words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
-    assert "- results of other models: 3 of 4 (from 8 m/s to the peak; " in words
-    assert "- physical bounds: 1 of 2 (hottest of any column)\n" in words
-    assert "- peak of the mean velocity: the median is 70.0 m/s (accepted: 72 to 88)" in words
-    assert "- maximum P over averaged N: the maximum is 1.200 (accepted: at most 1)" in words
+    for line in (
+        "results of other models: 3 of 4 (from 8 m/s to the peak; ",
+        "physical bounds: 1 of 2 (hottest of any column)\n",
+        "peak of the mean velocity: the median is 70.0 m/s (accepted: 72 to 88)",
+        "maximum P over averaged N: the maximum is 1.200 (accepted: at most 1)",
+    ):
+        assert f"- {line}" in words
     assert words.endswith("Excluded from median and range, because they failed: seed 3 (it left).")
     going = [changed(stop=float("inf")), changed(stop=float("inf")), GOOD]
     assert "- stop: at least half of the members have none (accepted: before 200)" in verdict(going)
@@ -119,8 +120,7 @@ def test_values_outside_the_intervals_are_bold() -> None:
         "observation: force reverses in [s] | model: peak [m/s] |"
     )
     assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
-    assert "| gone | not run |" in gone
-    assert {line.count("|") for line in (head, case, hot, gone)} == {13}
+    assert "| gone | not run |" in gone and {line.count("|") for line in (head, case, hot, gone)} == {13}
     assert broken == "- hot failed: it left"
 
 
@@ -161,3 +161,59 @@ def test_members_have_the_times_of_their_runs(make_run: MakeRun) -> None:
     assert distance.get_ylabel() == "mean displacement (km)"
     (marks,) = [line for line in speed.lines if line.get_label() == "reported: x"]
     np.testing.assert_allclose(marks.get_data(), [[START, START + 2.0], [8.0, 11.0]], atol=2e-3)
+
+
+def test_rows_scale_step_and_viscosity_and_shift_the_domain() -> None:
+    rows = {row.key: row.sets for row in numerics.cell_rows()}
+    assert len(rows) == 9
+    assert rows["e-0.21-cell-5"] == (
+        "band.thickness=0.21", "grid.cell=5", "time.step=0.005", "material.rock_ice.viscosity_time=0.00125",
+    )  # fmt: skip
+    assert next(iter(rows)).endswith("cell-5"), "the long runs first"
+    shifted = {row.key: row.sets for row in numerics.numerics_rows()}
+    assert shifted["quarter-shift"] == ("grid.min=[-202.5,197.5]", "grid.max=[13997.5,2397.5]")
+
+
+def test_table_of_cells_has_the_difference_of_the_finer_two() -> None:
+    found = {
+        row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0, dilation=15.0)
+        for row in numerics.cell_rows()
+    }
+    found[numerics.cell_key(0.4, numerics.CELLS[-1])] = Observed(failure="not run")
+    lines = numerics.cells_table(found).splitlines()
+    assert lines[0] == "| e [m] | quantity | 20 m | 10 m | 5 m | finer two differ by |"
+    assert lines[2] == "| 0.21 | mean displacement [km] | 4.00 | 4.00 | 5.00 | 25.0 % |"
+    assert lines[5] == "| 0.21 | growth of the volume [%] | 15.0 | 15.0 | 15.0 | |"
+    assert lines[10] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
+
+
+def test_table_of_numerics_has_differences_from_the_case() -> None:
+    base = Observed(peak=80.0, displacement=5.0, runout=9.0)
+    rows = numerics.numerics_rows()[:2]
+    found = {
+        rows[0].key: dataclasses.replace(base, displacement=4.9, runout=9.27),
+        rows[1].key: Observed(failure="broke off at 3 s"),
+    }
+    lines = numerics.numerics_table(rows, base, found).splitlines()
+    assert lines[0] == "| run | runout [km] | peak [m/s] | mean displacement [km] | set |"
+    assert lines[2] == "| half the time step | 9.3 (+3.0 %) | 80.0 (+0.0 %) | 4.90 (−2.0 %) | `time.step=0.005` |"
+    assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"
+
+
+def test_rows_have_the_multiples_in_their_names() -> None:
+    case = tomllib.loads((ROOT / "cases" / "lamplugh-columns" / "case.toml").read_text(encoding="utf-8"))
+    rock = case["material"]["rock_ice"]
+    assert (case["grid"]["cell"], case["time"]["step"]) == (numerics.CELL, numerics.STEP_PER_CELL * numerics.CELL)
+    assert rock["viscosity_time"] == numerics.VISCOSITY_PER_CELL * numerics.CELL
+    assert (*case["grid"]["min"], *case["grid"]["max"]) == tuple(numerics.DOMAIN[k] for k in (0, 2, 1, 3))
+    rows = {row.key: dict(each.split("=") for each in row.sets) for row in numerics.numerics_rows()}
+    factors = {
+        "half-modulus": (0.5, 1.0, 1.0), "twice-modulus": (2.0, 1.0, 1.0), "soft": (0.5, 2.0, 1.0),
+        "softest": (0.25, 4.0, 1.0), "stiff": (2.0, 0.5, 1.0), "half-viscosity": (1.0, 0.5, 1.0),
+        "twice-viscosity": (1.0, 2.0, 1.0), "half-slip": (1.0, 1.0, 0.5), "twice-slip": (1.0, 1.0, 2.0),
+        "fine-same-viscosity": (1.0, 1.0, 1.0),
+    }  # fmt: skip
+    for key, of_row in factors.items():
+        for name, factor in zip(("youngs_modulus", "viscosity_time", "softening_slip"), of_row, strict=True):
+            value = float(rows[key].get(f"material.rock_ice.{name}", rock[name]))
+            assert abs(value / rock[name] - factor) < 1e-9, (key, name)

@@ -19,7 +19,7 @@ from reproduction.page import NAMES
 from reproduction.runs import all_runs
 from reproduction.sentences import claims, filled, holds, table, verdict
 from reproduction.stages import balance, balance_cohesion, basal_resistance
-from thawslide.run_folder import Run
+from thawslide import Run
 
 
 def test_heat_table_has_the_closed_form_and_its_inverse() -> None:
@@ -62,8 +62,7 @@ def neumann(x: np.ndarray, time: float, mixture: Mixture, slope: float) -> np.nd
 def test_freezing_reference_converges_to_neumann(slope: float) -> None:
     alike = {"water_density": 920.0, "water_heat": 2108.0, "water_conductivity": 2.14}
     mixture = dataclasses.replace(FREEZING_BAR, **alike)
-    time = 86400.0
-    rms = []
+    time, rms = 86400.0, []
     for cells in (100, 800):
         x, found = reference(slope, True, time, cells, mixture)
         difference = found - neumann(x, time, mixture, slope)
@@ -73,11 +72,13 @@ def test_freezing_reference_converges_to_neumann(slope: float) -> None:
     assert rms[1] < rms[0] / 8.0
 
 
-def test_linear_shape_functions_of_two_rows_have_weights_of_three_quarters_and_one() -> None:
+def test_rows_of_the_band_have_their_weights_and_seepage_lowers_pressure() -> None:
     column = Column(3, 0.1)
-    assert np.allclose(column.weights.sum(axis=0), 1.0)
-    assert column.weights[0, :3].tolist() == [0.75, 0.25, 0.0]
+    assert np.allclose(column.weights.sum(axis=0), 1.0) and column.weights[0, :3].tolist() == [0.75, 0.25, 0.0]
     assert np.allclose(column.slopes.T @ np.array([0.0, 0.1, 0.2, 0.3]), 1.0)
+    tight = solve(Drive(0.05, 45.0), 0.02)
+    loose = solve(Drive(0.05, 45.0, hydraulic_conductivity=1e-8), 0.02)
+    assert loose.pressure[-1] < 0.8 * tight.pressure[-1] and loose.temperature[-1] > tight.temperature[-1] + 2.0
 
 
 def test_strength_of_a_melted_band_decreases_exponentially() -> None:
@@ -105,13 +106,6 @@ def test_band_conserves_the_heat_of_friction() -> None:
     assert rows * drive.thickness == pytest.approx(0.2 * (normal - ice) * found.time[-1], rel=2e-3)
 
 
-def test_seepage_lowers_pressure_and_prolongs_heating() -> None:
-    tight = solve(Drive(0.05, 45.0), 0.02)
-    loose = solve(Drive(0.05, 45.0, hydraulic_conductivity=1e-8), 0.02)
-    assert loose.pressure[-1] < 0.8 * tight.pressure[-1]
-    assert loose.temperature[-1] > tight.temperature[-1] + 2.0
-
-
 def test_verdicts_follow_from_comparisons() -> None:
     measures = {"a": 1.0, "b": 2.0, "none": math.nan}
     for test, expected in (
@@ -121,12 +115,10 @@ def test_verdicts_follow_from_comparisons() -> None:
         assert holds(test, measures) is expected, test
     with pytest.raises(ValueError, match="unknown comparison"):
         holds(["a", "=", "b"], measures)
-    assert verdict([["a", "<", "b"]], measures) is True
-    assert verdict([["a", "<", "b"], ["none", "<", 1.0]], measures) is None
-    assert verdict([["a", ">", "b"], ["none", "<", 1.0]], measures) is False
-    assert verdict([], measures) is None
-    assert filled("{a:.1f}, {none:.2f}", measures) == "1.0, none"
-    assert filled("{x:.1f}", {"x": -2.0}) == "−2.0"
+    less, more, unknown = ["a", "<", "b"], ["a", ">", "b"], ["none", "<", 1.0]
+    for tests, expected in ([less], True), ([less, unknown], None), ([more, unknown], False), ([], None):
+        assert verdict(tests, measures) is expected, tests
+    assert filled("{a:.1f}, {none:.2f}", measures) == "1.0, none" and filled("{x:.1f}", {"x": -2.0}) == "−2.0"
 
 
 def test_runs_figures_and_sentences_are_complete() -> None:
@@ -136,25 +128,28 @@ def test_runs_figures_and_sentences_are_complete() -> None:
     for row in claims():
         assert re.fullmatch(r"Abstract|3\.[123]|4\.[12]", row["section"])
         assert row["text"] and row["reported"] and row["result"]
-        for test in row.get("tests", []):
-            assert test[1] in ("<", ">", "within") and len(test) in (3, 4)
-            assert (test[1] == "within") <= (len(test) == 4)
-    names = [run.key for run in all_runs()]
-    assert len(set(names)) == len(names) == 36
-    # The page states it for all rows; the tolerance of saturations is 0.1.
-    for row in claims():
         for left, kind, right, *width in row.get("tests", []):
+            assert kind in ("<", ">", "within") and (kind == "within") <= len(width) <= 1
+            # The page states it for all rows; the tolerance of saturations is 0.1.
             if kind == "within" and isinstance(right, float) and right > 1.0:
                 assert width[0] == pytest.approx(0.1 * right, rel=0.01), (row["text"], left)
+    names = [run.key for run in all_runs()]
+    assert len(set(names)) == len(names) == 36
 
 
-def test_equations_4_and_25_have_their_limits() -> None:
+def test_equations_have_their_limits_and_cohesion_is_that_of_a_slab_of_50_m() -> None:
     # Eq. 4 with the usual sign: rho_L L_f ln(263.15/273.15) at -10 C, nothing at 0 C.
-    assert clapeyron(-10.0) == pytest.approx(-12.4387, abs=1e-3)
-    assert clapeyron(0.0) == 0.0
+    assert clapeyron(-10.0) == pytest.approx(-12.4387, abs=1e-3) and clapeyron(0.0) == 0.0
     assert friction_coefficient(0.95, 1.0) == pytest.approx(0.0, abs=1e-12)
     assert friction_coefficient(0.225, 0.0) == pytest.approx(math.tan(math.radians(40.0)))
     assert friction_coefficient(0.375, 0.0) == pytest.approx(0.82599, abs=1e-5)  # initial value of D
+    # 2062.625 kg/m3: 752.1 kPa down the slope, 677.2 kPa of load minus 449.8 kPa of ice pressure, tan 40 = 0.8391.
+    assert balance_cohesion(50.0) == pytest.approx(0.561, abs=5e-4)
+    assert balance_cohesion(100.0) == pytest.approx(2.0 * balance_cohesion(50.0))
+    block = {"driving_traction_Pa": np.array([8e5, 0.0]), "sliding_strength_Pa": np.array([7.9e5, 0.0])}
+    found = balance(block, 6e5)
+    assert found["lamplugh_balance"] == pytest.approx(0.61)
+    assert found["lamplugh_short"] == pytest.approx(100.0 * (1.0 - 0.751 / 0.8))
 
 
 def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
@@ -165,7 +160,7 @@ def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
     return Run(folder)
 
 
-def test_differences_crossing_and_drag_have_the_closed_form(tmp_path: Path) -> None:
+def test_differences_crossing_drag_and_resistance_have_the_closed_form(tmp_path: Path) -> None:
     time = [0.0, 10.0, 20.0, 30.0]
     one = short_run(tmp_path / "one", {
         "time_s": time, "band_saturation": [0.0, 0.3, 0.5, 0.5], "mass_kg": [2.0] * 4,
@@ -175,22 +170,8 @@ def test_differences_crossing_and_drag_have_the_closed_form(tmp_path: Path) -> N
     assert falls_below(one, other, "band_saturation", 2.0) == 30.0
     assert math.isnan(falls_below(other, one, "band_saturation", 25.0))
     largest, rms = differences(one, other, "band_saturation")
-    assert largest == pytest.approx(0.3, abs=1e-9)
-    assert 0.0 < rms < largest
+    assert largest == pytest.approx(0.3, abs=1e-9) and 0.0 < rms < largest
     assert drag(one) == pytest.approx(2.0 / (2.0 * 9.81 * math.cos(math.radians(40.0))))
-
-
-def test_cohesion_of_he_et_al_is_that_of_a_slab_of_50_m() -> None:
-    # 2062.625 kg/m3: 752.1 kPa down the slope, 677.2 kPa of load minus 449.8 kPa of ice pressure, tan 40 = 0.8391.
-    assert balance_cohesion(50.0) == pytest.approx(0.561, abs=5e-4)
-    assert balance_cohesion(100.0) == pytest.approx(2.0 * balance_cohesion(50.0))
-    block = {"driving_traction_Pa": np.array([8e5, 0.0]), "sliding_strength_Pa": np.array([7.9e5, 0.0])}
-    found = balance(block, 6e5)
-    assert found["lamplugh_balance"] == pytest.approx(0.61)
-    assert found["lamplugh_short"] == pytest.approx(100.0 * (1.0 - 0.751 / 0.8))
-
-
-def test_basal_resistance_is_work_over_displacement(tmp_path: Path) -> None:
     time = [0.0, 35.0, 40.0]
     columns = {"time_s": time, "friction_work_J": [0.0, 1e12, 4e12], "mean_displacement_m": [0.0, 10.0, 40.0]}
     assert basal_resistance(short_run(tmp_path / "run", columns)) == pytest.approx(100.0)

@@ -3,14 +3,14 @@
 import importlib.util
 import json
 import tomllib
-from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
 import rasterio
+from conftest import ROOT
 
-FOLDER = Path(__file__).resolve().parents[2] / "cases" / "valley3d"
+FOLDER = ROOT / "cases" / "valley3d"
 
 
 @pytest.fixture(scope="module")
@@ -36,25 +36,20 @@ def test_files_are_those_of_the_script(script: ModuleType) -> None:
     assert (FOLDER / "valley.tif").stat().st_size < 2**18
 
 
-def test_floor_has_the_slope_of_the_profile_without_a_kink(script: ModuleType) -> None:
+def test_floor_has_no_kink_and_coordinates_are_exact_in_the_bend(script: ModuleType) -> None:
     along, points, _ = script.centre_line()
     chosen = (along >= 0.0) & (along <= 9_000.0)
     foot, across = script.valley_coordinates(*points[chosen].T)
-    assert np.abs(foot - along[chosen]).max() < 1e-6
-    assert np.abs(across).max() < 1e-6
+    assert np.abs(foot - along[chosen]).max() < 1e-6 and np.abs(across).max() < 1e-6
     slope = np.diff(script.long_profile(np.arange(-500.0, 9_000.0, 0.5))) / 0.5
     assert np.abs(np.diff(slope)).max() < 0.06  # points of the profile are 10 m apart
     assert slope.min() == pytest.approx(-np.tan(np.radians(48.0)), abs=1e-3)
-
-
-def test_valley_coordinates_are_exact_in_the_bend(script: ModuleType) -> None:
     along, points, angle = script.centre_line()
     for distance, left in [(500.0, 900.0), (3_800.0, 1_200.0), (3_800.0, -1_200.0), (7_000.0, 300.0)]:
         k = int(np.searchsorted(along, distance))
         place = points[k] + left * np.array([-np.sin(angle[k]), np.cos(angle[k])])
-        foot, across = script.valley_coordinates(place[:1], place[1:])
-        assert foot[0] == pytest.approx(distance, abs=1e-3)
-        assert across[0] == pytest.approx(left, abs=1e-3)
+        found = np.ravel(script.valley_coordinates(place[:1], place[1:]))
+        assert found == pytest.approx([distance, left], abs=1e-3)
 
 
 def test_release_of_52_million_cubic_metres_is_within_the_dem(script: ModuleType) -> None:
@@ -63,10 +58,10 @@ def test_release_of_52_million_cubic_metres_is_within_the_dem(script: ModuleType
     area = 0.5 * np.sum(east[:-1] * north[1:] - east[1:] * north[:-1])
     assert area > 0.0  # anticlockwise, as in GeoJSON (RFC 7946)
     assert script.RELEASE_THICKNESS * area == pytest.approx(52e6, rel=0.01)
-    assert "taper" not in tomllib.loads((FOLDER / "case.toml").read_text())["body"]["slide"]
-    grid = tomllib.loads((FOLDER / "case.toml").read_text())["grid"]
-    low, high = np.array(grid["min"][:2]), np.array(grid["max"][:2])
-    half = script.POINT / 2.0
-    assert (low >= [script.WEST + half, script.SOUTH + half]).all()
-    assert (high <= [script.WEST + 10_000.0 - half, script.SOUTH + 4_400.0 - half]).all()
+    case = tomllib.loads((FOLDER / "case.toml").read_text())
+    assert "taper" not in case["body"]["slide"]
+    low, high = (np.array(case["grid"][end][:2]) for end in ("min", "max"))
+    half, size = script.POINT / 2.0, np.array([10_000.0, 4_400.0])
+    assert (low - [script.WEST, script.SOUTH] >= half).all()
+    assert (high - [script.WEST, script.SOUTH] <= size - half).all()
     assert (low < corners).all() and (corners < high).all()
