@@ -1,4 +1,4 @@
-"""Basal laws written in Python."""
+"""Basal laws written in Python, and erodible beds in polygons from Python."""
 
 import math
 from pathlib import Path
@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from simulation_test import assert_identical, silent
+from conftest import CommandLine, assert_identical, history_of, silent
+from terrain_files import SOUTH, THICKNESS, WEST, write_rectangle, write_slope
 
-from thawslide import Case, ContactNodes, Simulation, UserError
+from thawslide import Case, ContactNodes, Simulation, UserError, new_case
 from thawslide.basal_law import BasalLaw
 
 
@@ -94,12 +95,10 @@ def test_an_exception_of_a_law_leaves_the_simulation_before_the_step(slope: Path
     ("strength", "words"),
     [
         (np.nan, r"invalid strength \(found nan Pa; allowed: finite, at least 0\)"),
-        (-5.0, "found -5 Pa"),
-        (np.zeros(3000), r"found an array of shape \(3000,\)"),
-        (None, "found a NoneType"),
+        (-5.0, "found -5 Pa"), (np.zeros(3000), r"found an array of shape \(3000,\)"), (None, "found a NoneType"),
         ("much", "found a str"),
     ],
-)
+)  # fmt: skip
 def test_invalid_strengths_are_refused(slope: Path, strength: Any, words: str) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent, basal_law=lambda nodes: strength)
     with pytest.raises(UserError, match=words):
@@ -109,3 +108,36 @@ def test_invalid_strengths_are_refused(slope: Path, strength: Any, words: str) -
 def test_a_case_without_basal_friction_is_refused(slope: Path) -> None:
     with pytest.raises(UserError, match="the case has no basal friction"):
         Simulation(Case(slope, {"mechanics.enabled": False}), on_message=silent, basal_law=lambda nodes: 0.0)
+
+
+LENGTH, WIDTH = 230.0, 121.0  # m, of the bed
+
+
+def test_a_bed_in_polygons_is_that_of_the_command(tmp_path: Path, command_line: CommandLine) -> None:
+    dem = write_slope(tmp_path / "dem.tif")
+    release = write_rectangle(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
+    bed = write_rectangle(tmp_path / "bed.geojson", WEST + 190.0, SOUTH + 240.0, LENGTH, WIDTH, metres=1.5)
+    new_case(dem, release, tmp_path / "slide", thickness=THICKNESS, valley_floor=bed, on_message=silent)
+    outline = tmp_path / "slide" / bed.name  # the copy, which is also that of the substrate
+    changes = {
+        "bed.law": "strength", "bed.outline": str(outline), "bed.depth": {"attribute": "metres"}, "bed.strength": 0.0,
+        "bed.depth_per_slip": 0.2, "bed.material": "rock_ice", "body.slide.velocity": [15.0, 0.0, -8.0],
+        "time.end": 0.3,
+    }  # fmt: skip
+    simulation = Simulation(Case(tmp_path / "slide", changes), threads=1, on_message=silent)
+    assert simulation.case["bed.outline"] == str(outline)
+    simulation.run()
+    rows = simulation.history
+    density = rows["entrained_mass_kg"].iloc[-1] / rows["entrained_volume_m3"].iloc[-1]
+    assert rows["bed_mass_kg"].iloc[0] == pytest.approx(density * 1.5 * LENGTH * WIDTH, rel=1e-11)
+
+    sets = [f"--set={key}={value}" for key, value in changes.items() if not isinstance(value, dict)]
+    sets.append('--set=bed.depth={ attribute = "metres" }')
+    done = command_line("run", tmp_path / "slide", "--output", tmp_path / "run", "--threads", 1, *sets)
+    assert done.returncode == 0, done.stderr
+    assert_identical(rows, history_of(tmp_path / "run"))
+
+    with pytest.raises(UserError, match="there is no attribute 'deep', which "):
+        Simulation(Case(tmp_path / "slide", changes | {"bed.depth": {"attribute": "deep"}}), on_message=silent)
+    with pytest.raises(UserError, match="there are no polygons to have it"):
+        Case(tmp_path / "slide", {key: value for key, value in changes.items() if key != "bed.outline"})

@@ -5,15 +5,12 @@ import pickle
 from pathlib import Path
 
 import pytest
+from conftest import silent
 
 import thawslide
 from thawslide import Case, Simulation, UserError
 
 PROFILE = "distance_m,terrain_elevation_m\n0,90\n200,0\n"  # gentler than that of the slope
-
-
-def silent(_line: str) -> None:
-    """Ignore a warning."""
 
 
 @pytest.fixture
@@ -97,8 +94,7 @@ def test_a_run_keeps_the_text_that_was_read(inside: Path, tmp_path: Path) -> Non
     run = thawslide.run(case, tmp_path / "run", progress=False)
     assert (run.folder / "inputs" / "case.toml").read_text() == text
     assert "porosity = 0.3" in (run.folder / "case.toml").read_text()
-    facts = json.loads((run.folder / "run.json").read_text())
-    assert facts["inputs"][0]["bytes"] == len(text)
+    assert json.loads((run.folder / "run.json").read_text())["inputs"][0]["bytes"] == len(text)
 
 
 def test_a_case_from_text_needs_no_file_later(slope: Path, tmp_path: Path) -> None:

@@ -7,13 +7,33 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 from slope_case import write_slope_case
 
+import thawslide
+from thawslide import Run, Simulation
+
 ROOT = Path(__file__).resolve().parents[2]
+VALLEY = ROOT / "cases" / "valley3d"
 sys.path.insert(0, str(ROOT / "tests" / "cli"))
 
 CommandLine = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def silent(_line: str) -> None:
+    """Ignore a warning."""
+
+
+def history_of(folder: Path) -> pd.DataFrame:
+    return pd.read_csv(folder / "history.csv")
+
+
+def assert_identical(found: pd.DataFrame, expected: pd.DataFrame) -> None:
+    assert list(found.columns) == list(expected.columns)
+    for column in expected.columns:
+        np.testing.assert_array_equal(found[column].to_numpy(float), expected[column].to_numpy(float), err_msg=column)
 
 
 @pytest.fixture
@@ -39,3 +59,15 @@ def command_line(tmp_path: Path) -> CommandLine:
 def slope(tmp_path: Path) -> Path:
     """Return the case file of a block that slides down a slope with band columns, 1 s in 200 steps."""
     return write_slope_case(tmp_path / "slope", end=1.0, cell=5.0)
+
+
+@pytest.fixture
+def simulation(slope: Path) -> Simulation:
+    """Return a simulation of that case on one thread."""
+    return Simulation(slope, threads=1, on_message=silent)
+
+
+@pytest.fixture
+def run(slope: Path, tmp_path: Path) -> Run:
+    """Return a run of that case in the folder `run`."""
+    return thawslide.run(slope, tmp_path / "run", threads=1, progress=False)

@@ -1,7 +1,12 @@
-"""Examples in the docstrings of the public API run, and every parameter of a function or method is described."""
+"""Examples in docstrings and notebooks run, every parameter is described, and types are found by mypy."""
 
 import doctest
 import inspect
+import json
+import os
+import shutil
+import subprocess
+import sys
 import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import is_dataclass
@@ -10,11 +15,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from conftest import ROOT
 
 import thawslide
 from thawslide.maps import Map
 
-ROOT = Path(__file__).resolve().parents[2]
 PUBLIC = {name: getattr(thawslide, name) for name in thawslide.__all__}
 FUNCTIONS: dict[str, Callable[..., Any]] = {name: each for name, each in PUBLIC.items() if inspect.isfunction(each)}
 CLASSES = [each for each in (*PUBLIC.values(), Map) if isinstance(each, type) and not issubclass(each, Exception)]
@@ -62,3 +67,74 @@ def test_every_parameter_is_described(name: str) -> None:
 
 def test_only_public_names_are_listed() -> None:
     assert dir(thawslide) == sorted(thawslide.__all__)
+
+
+SCRIPT = """
+import numpy as np
+
+import thawslide
+from thawslide import Case, Run, RunError, Simulation, UserError
+
+
+def peak_of(case: Case) -> float:
+    simulation = Simulation(case, threads=1)
+    simulation.run(until=1.0)
+    return float(simulation.history["mean_velocity_m_s"].max())
+
+
+case = Case("slope", {"basal.friction_angle": 20.0})
+case["band.thickness"] = 0.3
+try:
+    print(peak_of(case), np.pi)
+    run: Run = thawslide.run(case, output="out", progress=False)
+    print(run.key_numbers["peak_speed_m_s"])
+except (UserError, RunError) as error:
+    print(error)
+table = thawslide.sweep("slope", "sweep", vary={"band.thickness": [0.1, 0.2]}, progress=False)
+print(table["status"].tolist())
+"""
+
+
+def mypy(tmp_path: Path, script: str) -> str:
+    (tmp_path / "study.py").write_text(script)
+    settings = tmp_path / "mypy.ini"
+    settings.write_text("[mypy]\nstrict = True\n")
+    command = [sys.executable, "-m", "mypy", "--config-file", settings, "--cache-dir", ROOT / "build" / "mypy-user"]
+    return subprocess.run([*command, "study.py"], cwd=tmp_path, capture_output=True, text=True).stdout
+
+
+def test_strict_check_accepts_a_script_and_finds_a_wrong_type(tmp_path: Path) -> None:
+    assert "Success: no issues found" in mypy(tmp_path, SCRIPT)
+    assert 'has incompatible type "str"; expected "float' in mypy(tmp_path, SCRIPT.replace("until=1.0", 'until="1"'))
+
+
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+
+
+def code_of(notebook: Path) -> list[dict[str, Any]]:
+    return [cell for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs(notebook: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "docs" / "notebooks" / notebook.name
+    copy.parent.mkdir(parents=True)
+    shutil.copy(notebook, copy)
+    (tmp_path / "cases").symlink_to(ROOT / "cases")
+    (tmp_path / "runs").mkdir()
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}", "JUPYTER_PLATFORM_DIRS": "1"}
+    words = f"import pathlib; from reproduction.studies import notebooks as n; n.execute(pathlib.Path({str(copy)!r}))"
+    command = [sys.executable, "-c", words]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    assert [len(cell["outputs"]) for cell in code_of(copy)] == [len(cell["outputs"]) for cell in code_of(notebook)]
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_has_outputs_and_is_small(notebook: Path) -> None:
+    assert any(cell["outputs"] for cell in code_of(notebook)) and notebook.stat().st_size < 200_000
+
+
+def test_the_friction_of_a_run_changes_halfway_in_under_20_lines() -> None:
+    (cell,) = code_of(ROOT / "docs" / "notebooks" / "change-friction-halfway.ipynb")
+    assert len(cell["source"]) < 20

@@ -6,64 +6,38 @@ from pathlib import Path
 
 import pytest
 
+STEPS = ("simulation = Simulation(case, on_message=silent)", "simulation.step(3)")
+WITH_LAW = "simulation = Simulation(case, on_message=silent, basal_law=law)"
+
+
+def in_function(*lines: str) -> str:
+    return "\n    ".join(["def main():", *lines]) + "\nmain()"
+
+
 SCRIPTS = {
     "observer": "simulation = Simulation(case, on_message=lines.append); simulation.step(3)",
-    "observer that refers to the simulation": (
-        "class Study:\n"
-        "    def __init__(self):\n"
-        "        self.simulation = Simulation(case, on_message=self.note)\n"
-        "        self.simulation.step(3)\n"
-        "    def note(self, line):\n"
-        "        lines.append(self)\n"
-        "def main():\n"
-        "    study = Study()\n"
-        "main()"
+    "observer that refers to the simulation": in_function(
+        "class Study:", "    def __init__(self):", "        self.simulation = Simulation(case, on_message=self.note)",
+        "        self.simulation.step(3)", "    def note(self, line):", "        lines.append(self)", "study = Study()",
     ),
     "views": "simulation = Simulation(case, on_message=silent); view = simulation.blocks('velocity'); keep = [view]",
-    "law": (
-        "def main():\n"
-        "    def law(nodes):\n"
-        "        return simulation.time + nodes.strength\n"
-        "    simulation = Simulation(case, on_message=silent, basal_law=law)\n"
-        "    simulation.step(3)\n"
-        "main()"
+    "law": in_function(
+        "def law(nodes):", "    return simulation.time + nodes.strength", WITH_LAW, "simulation.step(3)",
     ),
     "callback": "Simulation(case, on_message=silent).run(callback=lines.append, every_steps=5)",
-    "end by sys.exit in a function": (
-        "def main():\n"
-        "    simulation = Simulation(case, on_message=silent)\n"
-        "    simulation.step(3)\n"
-        "    sys.exit()\n"
-        "main()"
-    ),
-    "failed law": (
-        "def law(nodes):\n"
-        "    raise ValueError\n"
-        "simulation = Simulation(case, on_message=silent, basal_law=law)\n"
-        "try:\n"
-        "    simulation.step()\n"
-        "except ValueError as error:\n"
-        "    lines.append(error)"
-    ),
+    "end by sys.exit in a function": in_function(*STEPS, "sys.exit()"),
+    "failed law": "\n".join((
+        "def law(nodes):", "    raise ValueError", WITH_LAW, "try:", "    simulation.step()",
+        "except ValueError as error:", "    lines.append(error)",
+    )),
     "run in a folder": "done = thawslide.run(case, folder / 'run', progress=False); lines.append(done)",
-    "child of multiprocessing": (
-        "simulation = Simulation(case, on_message=silent)\n"
-        "simulation.step(3)\n"
-        "child = multiprocessing.get_context('fork').Process(target=simulation.step, args=(3,))\n"
-        "child.start()\n"
-        "child.join()\n"
-        "assert child.exitcode == 0"
-    ),
-    "child of os.fork": (
-        "def main():\n"
-        "    simulation = Simulation(case, on_message=silent)\n"
-        "    simulation.step(3)\n"
-        "    child = os.fork()\n"
-        "    if child == 0:\n"
-        "        simulation.step(3)\n"
-        "        sys.exit()\n"
-        "    assert os.waitpid(child, 0)[1] == 0\n"
-        "main()"
+    "child of multiprocessing": "\n".join((
+        *STEPS, "child = multiprocessing.get_context('fork').Process(target=simulation.step, args=(3,))",
+        "child.start()", "child.join()", "assert child.exitcode == 0",
+    )),
+    "child of os.fork": in_function(
+        *STEPS, "child = os.fork()", "if child == 0:", "    simulation.step(3)", "    sys.exit()",
+        "assert os.waitpid(child, 0)[1] == 0",
     ),
 }  # fmt: skip
 BEGIN = """

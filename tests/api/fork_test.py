@@ -8,7 +8,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 
 import pytest
-from simulation_test import silent
+from conftest import silent
 
 import thawslide
 from thawslide import Case, Simulation
@@ -68,8 +68,7 @@ def test_a_run_in_a_folder_ends_after_a_fork(slope: Path, tmp_path: Path, parent
     case = Case(slope, {"time.end": 0.05})
 
     def run() -> float:
-        done = thawslide.run(case, tmp_path / "run", threads=2, progress=False)
-        return float(len(done.history))
+        return float(len(thawslide.run(case, tmp_path / "run", threads=2, progress=False).history))
 
     assert in_child(run) == 2.0
 

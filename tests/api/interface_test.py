@@ -1,29 +1,21 @@
 """Maps, front, key numbers and nodes of a simulation; cases from dictionaries; loggers; texts of objects and errors."""
 
 import math
-import pickle
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, VALLEY, silent
 
 import thawslide
 from thawslide import Case, Logger, ReportError, Run, Simulation, UserError
 from thawslide.errors import with_parameters
 from thawslide.scarps.surfaces import Plane
 
-VALLEY = ROOT / "cases" / "valley3d"
 
-
-def silent(_line: str) -> None:
-    """Ignore a warning."""
-
-
-def test_nodes_have_the_mass_and_momentum_of_the_particles(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_nodes_have_the_mass_and_momentum_of_the_particles(simulation: Simulation) -> None:
     assert len(simulation.nodes.mass) == 0
     simulation.step(50)
     mass, velocity = simulation.field("mass"), simulation.field("velocity")
@@ -36,28 +28,23 @@ def test_nodes_have_the_mass_and_momentum_of_the_particles(slope: Path) -> None:
     particles = simulation.field("position")
     assert np.all(nodes.position.min(axis=0) > particles.min(axis=0) - 3.0 * cell)
     assert np.all(nodes.position.max(axis=0) < particles.max(axis=0) + 3.0 * cell)
-
-
-def test_nodes_after_a_restoration_are_those_of_the_next_step(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
     simulation.step(5)
     simulation.restore(simulation.checkpoint())
     assert len(simulation.nodes.mass) == 0
     simulation.step()
     assert simulation.nodes.mass.sum() == pytest.approx(simulation.field("mass").sum(), rel=1e-12)
-
-
-def test_nodes_without_mechanics_have_no_mass() -> None:
-    simulation = Simulation(ROOT / "cases" / "freezing-bar" / "m025.toml", threads=1, on_message=silent)
-    simulation.step(3)
-    assert len(simulation.nodes.mass) == 0
+    without_mechanics = Simulation(ROOT / "cases" / "freezing-bar" / "m025.toml", threads=1, on_message=silent)
+    without_mechanics.step(3)
+    assert len(without_mechanics.nodes.mass) == 0
 
 
 def test_a_device_is_the_cpu_a_gpu_or_automatic(slope: Path, tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="device is 'tpu'; allowed: cpu, gpu, auto"):
-        Simulation(slope, threads=1, device="tpu", on_message=silent)
-    with pytest.raises(UserError, match="device is 'tpu'; allowed: cpu, gpu, auto"):
-        thawslide.run(slope, tmp_path / "run", device="tpu", progress=False)
+    for work in (
+        lambda: Simulation(slope, threads=1, device="tpu", on_message=silent),
+        lambda: thawslide.run(slope, tmp_path / "run", device="tpu", progress=False),
+    ):
+        with pytest.raises(UserError, match="device is 'tpu'; allowed: cpu, gpu, auto"):
+            work()
     assert not (tmp_path / "run").exists()
     try:
         Simulation(slope, threads=1, device="gpu", on_message=silent)
@@ -65,15 +52,11 @@ def test_a_device_is_the_cpu_a_gpu_or_automatic(slope: Path, tmp_path: Path) -> 
         assert str(error).startswith("device gpu: ") and str(error).endswith("Run the case on the CPU: device cpu")
         assert "./run setup" not in str(error)
     simulation = Simulation(slope, threads=1, device="auto", on_message=silent)
-    simulation.step(5)
-    simulation.restore(simulation.checkpoint())
     simulation.step()
     assert simulation.nodes.mass.sum() == pytest.approx(simulation.field("mass").sum(), rel=1e-12)
 
 
-def test_positions_are_in_the_coordinates_of_the_case(slope: Path, tmp_path: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
+def test_positions_are_in_the_coordinates_of_the_case(simulation: Simulation, run: Run) -> None:
     points = run.snapshot(0, fields=["id"])
     order = np.argsort(points["id"]), np.argsort(simulation.field("id"))
     np.testing.assert_array_equal(simulation.field("position")[order[1]], points.points[order[0], :2])
@@ -81,8 +64,7 @@ def test_positions_are_in_the_coordinates_of_the_case(slope: Path, tmp_path: Pat
     np.testing.assert_array_equal(raw + simulation.origin, simulation.field("position"))
 
 
-def test_state_of_a_2d_simulation(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_state_of_a_2d_simulation(simulation: Simulation) -> None:
     simulation.run(until=0.5)
     last = simulation.history.iloc[-1]
     assert simulation.row["time_s"] == simulation.time == last["time_s"]
@@ -126,15 +108,9 @@ def test_a_dictionary_is_a_case(slope: Path, tmp_path: Path, monkeypatch: pytest
         Case.from_dict({"grid": {"cell": object()}})
 
 
-def test_a_pickled_case_keeps_its_changes(slope: Path) -> None:
-    case = Case(slope, {"basal.friction_angle": 21.0})
-    other = pickle.loads(pickle.dumps(case))
-    assert other["basal.friction_angle"] == 21.0 and other.to_toml() == case.to_toml()
-
-
-def test_errors_name_keys_and_parameters_in_place_of_options(slope: Path, tmp_path: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
+def test_messages_name_keys_and_parameters_in_place_of_options(
+    slope: Path, tmp_path: Path, simulation: Simulation, run: Run, capsys: pytest.CaptureFixture[str]
+) -> None:
     dem, release = VALLEY / "valley.tif", VALLEY / "release.geojson"
     plane = Plane(x=402000.0, y=6502900.0, dip=25.0, direction=110.0)
     wrong: dict[str, Callable[[], object]] = {
@@ -153,9 +129,6 @@ def test_errors_name_keys_and_parameters_in_place_of_options(slope: Path, tmp_pa
         with pytest.raises((UserError, ReportError), match=message) as raised:
             work()
         assert "--" not in str(raised.value)
-
-
-def test_warnings_name_keys_in_place_of_options(slope: Path, capsys: pytest.CaptureFixture[str]) -> None:
     lines: list[str] = []
     case = Case(slope, {"basal.friction_angle": 1.0})
     Simulation(case, threads=1, on_message=lines.append)
@@ -165,18 +138,19 @@ def test_warnings_name_keys_in_place_of_options(slope: Path, capsys: pytest.Capt
 
 
 def test_options_in_commands_remain() -> None:
-    text = "To continue, add --set time.stop_at_rest=0 or --end T.\nstopped: thawslide resume runs/a --end 3"
-    assert with_parameters(text) == (
-        "To continue, add time.stop_at_rest=0 or time.end=T.\nstopped: thawslide resume runs/a --end 3"
-    )
-    assert with_parameters("runs/a--b: --reach-angle is 0") == "runs/a--b: reach_angle is 0"
-    built = "--device gpu: to build: ./run --setup --gpu. Run the case on the CPU: --device cpu"
-    assert with_parameters(built) == "device gpu: to build: ./run --setup --gpu. Run the case on the CPU: device cpu"
+    lines = {
+        "To continue, add --set time.stop_at_rest=0 or --end T.": "To continue, add time.stop_at_rest=0 or time.end=T.",
+        "stopped: thawslide resume runs/a --end 3": "stopped: thawslide resume runs/a --end 3",
+        "runs/a--b: --reach-angle is 0": "runs/a--b: reach_angle is 0",
+        "--device gpu: to build: ./run --setup --gpu. Use --device cpu": (
+            "device gpu: to build: ./run --setup --gpu. Use device cpu"
+        ),
+    }
+    assert with_parameters("\n".join(lines)) == "\n".join(lines.values())
 
 
-def test_a_logger_records_quantities_at_intervals(slope: Path) -> None:
+def test_a_logger_records_quantities_at_intervals(simulation: Simulation) -> None:
     logger = Logger(front_m=lambda simulation: simulation.front, particles=lambda simulation: simulation.particle_count)
-    simulation = Simulation(slope, threads=1, on_message=silent)
     simulation.run(until=0.5, callback=logger, every=0.1)
     table = logger.table
     assert list(table.columns) == ["time_s", "step", "front_m", "particles"]
@@ -188,28 +162,21 @@ def test_a_logger_records_quantities_at_intervals(slope: Path) -> None:
     assert Logger(front_m=lambda simulation: math.nan).table.empty
 
 
-def test_a_callback_at_short_intervals_is_called_once_per_step(slope: Path) -> None:
-    times: list[float] = []
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    simulation.run(until=0.025, callback=lambda now: times.append(now.time), every=0.002)
-    np.testing.assert_allclose(times, 0.005 * np.arange(1, 6))
-
-
-def test_an_interval_and_a_callback_need_each_other(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_callbacks_need_an_interval_and_are_called_once_per_step_at_most(simulation: Simulation) -> None:
     for interval in ({"every": 0.1}, {"every_steps": 2}):
         with pytest.raises(UserError, match=r"`every` and `every_steps` need a callback"):
             simulation.run(until=0.2, **interval)  # type: ignore[arg-type]
     with pytest.raises(UserError, match="a callback needs one of `every`"):
         simulation.run(until=0.2, callback=lambda now: None)
     assert simulation.time == 0.0
+    times: list[float] = []
+    simulation.run(until=0.025, callback=lambda now: times.append(now.time), every=0.002)
+    np.testing.assert_allclose(times, 0.005 * np.arange(1, 6))
 
 
-def test_objects_have_texts(slope: Path, tmp_path: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_objects_have_texts(tmp_path: Path, simulation: Simulation, run: Run) -> None:
     assert repr(simulation).startswith("Simulation('") and "t = 0 s of 1 s" in repr(simulation)
     simulation.step()
     assert repr(simulation.nodes).startswith("Nodes(") and repr(simulation.maps) == "LiveMaps()"
-    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
     assert repr(run) == f"Run({str(tmp_path / 'run')!r})"
     assert repr(run.snapshot(0, fields=["mass", "volume"])) == "Snapshot(t = 0 s, 128 particles: mass, volume)"

@@ -1,30 +1,16 @@
 """Simulations in memory: they are those of the command line."""
 
+import itertools
 import signal
 import threading
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
-from conftest import CommandLine
+from conftest import CommandLine, assert_identical, history_of, silent
 
 import thawslide
-from thawslide import Case, RunError, Simulation, UserError
-
-
-def silent(_line: str) -> None:
-    """Ignore a warning."""
-
-
-def history_of(folder: Path) -> pd.DataFrame:
-    return pd.read_csv(folder / "history.csv")
-
-
-def assert_identical(found: pd.DataFrame, expected: pd.DataFrame) -> None:
-    assert list(found.columns) == list(expected.columns)
-    for column in expected.columns:
-        np.testing.assert_array_equal(found[column].to_numpy(float), expected[column].to_numpy(float), err_msg=column)
+from thawslide import Case, Run, RunError, Simulation, UserError
 
 
 @pytest.mark.parametrize("stepping", ["fixed", "adaptive"])
@@ -37,8 +23,7 @@ def test_history_is_that_of_the_command(slope: Path, tmp_path: Path, command_lin
     assert_identical(simulation.history, history_of(tmp_path / "run"))
 
 
-def test_a_changed_friction_slows_the_slide_down(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_a_changed_friction_slows_the_slide_down(slope: Path, simulation: Simulation) -> None:
     simulation.run(until=0.5)
     before = simulation.history["mean_velocity_m_s"].iloc[-1]
     simulation.change({"basal.friction_angle": 45.0})
@@ -63,8 +48,7 @@ def test_a_changed_run_is_that_of_resume(slope: Path, tmp_path: Path, command_li
     assert_identical(simulation.history, history_of(run))
 
 
-def test_a_damaged_checkpoint_and_one_of_another_case_are_refused(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_a_damaged_checkpoint_and_one_of_another_case_are_refused(slope: Path, simulation: Simulation) -> None:
     checkpoint = simulation.checkpoint()
     with pytest.raises(UserError, match="the checkpoint is damaged"):
         simulation.restore(checkpoint[:-1] + b"x")
@@ -74,8 +58,7 @@ def test_a_damaged_checkpoint_and_one_of_another_case_are_refused(slope: Path) -
     assert other.time == 0.0 and len(other.history) == 1
 
 
-def test_fields_are_read_only_views(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_fields_are_read_only_views(simulation: Simulation) -> None:
     simulation.step(20)
     assert simulation.step_number == 20
     temperature = simulation.field("temperature")
@@ -96,8 +79,7 @@ def test_fields_are_read_only_views(slope: Path) -> None:
         simulation.field("speed")
 
 
-def test_a_restored_simulation_continues_bitwise_with_its_views(slope: Path) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
+def test_a_restored_simulation_continues_bitwise_with_its_views(slope: Path, simulation: Simulation) -> None:
     temperature = simulation.field("temperature")
     expected = temperature.copy()
     simulation.restore(simulation.checkpoint())
@@ -173,23 +155,13 @@ def test_a_restored_end_at_rest_remains_one(slope: Path) -> None:
     assert not other.is_done
 
 
-def test_an_end_before_the_present_time_is_refused(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
+def test_refused_changes_have_the_messages_of_resume(slope: Path, run: Run, command_line: CommandLine) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     simulation.run()
-    with pytest.raises(UserError) as error:
-        simulation.change({"time.end": 0.5})
-    assert command_line("run", slope, "--output", tmp_path / "run").returncode == 0
-    assert command_line("resume", tmp_path / "run", "--end", 0.5).stderr == f"error: {error.value}\n"
-
-
-def test_a_fixed_key_has_the_message_of_resume(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    simulation.step(1)
-    with pytest.raises(UserError) as error:
-        simulation.change({"grid.cell": 10.0})
-    assert command_line("run", slope, "--output", tmp_path / "run", "--set", "time.end=0.1").returncode == 0
-    assert command_line("resume", tmp_path / "run", "--set", "grid.cell=10.0").stderr == f"error: {error.value}\n"
-    simulation.run(until=0.1)
+    for change, words in ({"time.end": 0.5}, ["--end", 0.5]), ({"grid.cell": 10.0}, ["--set", "grid.cell=10.0"]):
+        with pytest.raises(UserError) as error:
+            simulation.change(change)
+        assert command_line("resume", run.folder, *words).stderr == f"error: {error.value}\n"
     assert simulation.case["grid.cell"] == 5.0
 
 
@@ -221,19 +193,17 @@ def test_control_c_stops_between_two_steps(slope: Path) -> None:
 
 def test_other_threads_work_while_a_simulation_steps(slope: Path) -> None:
     simulation = Simulation(Case(slope, {"time.end": 9.0, "time.step": 0.0001}), threads=1, on_message=silent)
-    counted = 0
-    stop = threading.Event()
+    counted, stop = itertools.count(), threading.Event()
 
     def count() -> None:
-        nonlocal counted
         while not stop.is_set():
-            counted += 1
+            next(counted)
 
     worker = threading.Thread(target=count)
     worker.start()
-    before = counted
+    before = next(counted)
     simulation.step(5000)
-    during = counted - before
+    during = next(counted) - before
     stop.set()
     worker.join()
     assert during > 1000
