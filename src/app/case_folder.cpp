@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/print.hpp"
+#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"

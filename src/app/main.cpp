@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "app/commands.hpp"
-#include "app/print.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"

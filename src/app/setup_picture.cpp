@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 
-#include "app/print.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"

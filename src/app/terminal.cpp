@@ -8,7 +8,6 @@
 #include <csignal>
 #include <filesystem>
 
-#include "app/print.hpp"
 #include "base/clocks.hpp"
 #include "base/rounding.hpp"
 

@@ -3,8 +3,12 @@
 // writes its state and stops with exit code 4.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cstdio>
 #include <string>
+#include <utility>
 
 #include "run/observer.hpp"
 
@@ -56,5 +60,23 @@ std::string python_program(const std::string& name);
 
 // "It is part of ...": where to get such a program, for messages.
 extern const char* const python_program_remedy;
+
+// Output during the work. If it cannot be written (a closed pipe, a full disk), the work continues. For commands whose
+// results are their output, main.cpp reports the loss at the end.
+// Ignores a stream that cannot be written.
+inline void put(std::FILE* stream, const std::string& text) {
+  (void)std::fwrite(text.data(), 1, text.size(), stream);
+  (void)std::fflush(stream);
+}
+
+template <class... Values>
+void print_text(fmt::format_string<Values...> format, Values&&... values) {
+  put(stdout, fmt::format(format, std::forward<Values>(values)...));
+}
+
+template <class... Values>
+void print_error(fmt::format_string<Values...> format, Values&&... values) {
+  put(stderr, fmt::format(format, std::forward<Values>(values)...));
+}
 
 }  // namespace thawslide::app

@@ -1,5 +1,4 @@
-#include "gis/coverage.hpp"
-
+// Conversion between polygons and rasters.
 #include <gdal_alg.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -10,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
+#include "gis/polygons.hpp"
 
 namespace thawslide::gis {
 

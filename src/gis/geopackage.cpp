@@ -10,7 +10,6 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 
 namespace thawslide::gis {
 

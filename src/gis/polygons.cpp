@@ -7,7 +7,6 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 
 namespace thawslide::gis {
 

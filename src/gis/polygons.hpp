@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/raster.hpp"
 #include "config/site.hpp"
 #include "gis/point_window.hpp"
 
@@ -56,5 +57,18 @@ struct Overlap {
 // Overlap of two areas if it exceeds a fraction of the smaller one.
 [[nodiscard]] std::optional<Overlap> overlap_of(const Polygons& first, const Polygons& second,
                                                 double tolerance = overlap_tolerance);
+
+// Fraction of each point's cell covered by polygons, exact to round-off: from 0 to 1 at the points of the layout.
+//
+// The cell of a point is the surrounding rectangle of cell_x by cell_y. The polygons are clipped at the cells' edges by
+// bisection. Clipping at a line removes the corners beyond it and adds the intersections of the edges with the line
+// (Sutherland and Hodgman 1974, Communications of the ACM 17, 32-42). The fraction is the remaining area in a cell, by
+// Gauss's trapezoid formula, divided by the cell's area.
+//
+// The polygons must not overlap (union_of) and must lie within the cells of the points.
+[[nodiscard]] Raster coverage_of(const Polygons& polygons, const Raster& layout);
+
+// Areas with holes of the cells around points whose value is neither 0 nor NaN; cells that share an edge are joined.
+[[nodiscard]] Polygons areas_of_mask(const Raster& mask);
 
 }  // namespace thawslide::gis

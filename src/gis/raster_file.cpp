@@ -16,7 +16,6 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
@@ -165,14 +164,10 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
 
 double nodata_of(GDALRasterBand& band, bool& has) {
   int given = 0;
-  double value = 0.0;
-  if (band.GetRasterDataType() == GDT_Int64) {
-    value = static_cast<double>(band.GetNoDataValueAsInt64(&given));
-  } else if (band.GetRasterDataType() == GDT_UInt64) {
-    value = static_cast<double>(band.GetNoDataValueAsUInt64(&given));
-  } else {
-    value = band.GetNoDataValue(&given);
-  }
+  const GDALDataType type = band.GetRasterDataType();
+  const double value = type == GDT_Int64    ? static_cast<double>(band.GetNoDataValueAsInt64(&given))
+                       : type == GDT_UInt64 ? static_cast<double>(band.GetNoDataValueAsUInt64(&given))
+                                            : band.GetNoDataValue(&given);
   has = given != 0;
   return value;
 }
@@ -291,7 +286,7 @@ Raster RasterFile::read_points(const PointWindow& part) const {
   THAWSLIDE_ASSERT(part.columns > 0 && part.rows > 0, "{}: a window without a point", file_);
   require_readable(file_, part.columns, part.rows);
   Raster raster = layout_of(layout_, part);
-  raster.values.resize(static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows));
+  raster.values.resize(raster.index(0, raster.rows));
   // GDAL's rows run downwards in a north-up file, so those of the result are filled from the last.
   const int first_line = north_up_ ? layout_.rows - part.first_row - part.rows : part.first_row;
   const auto line_bytes = static_cast<GSpacing>(part.columns) * static_cast<GSpacing>(sizeof(double));

@@ -7,7 +7,6 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 #include "gis/raster_file.hpp"
 
 namespace thawslide::gis {

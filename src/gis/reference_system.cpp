@@ -14,7 +14,6 @@
 #include "config/input_limits.hpp"
 #include "gis/case_inputs.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 #include "gis/reprojection.hpp"
 
 namespace thawslide::gis {

@@ -8,12 +8,11 @@
 #include "base/raster_sampling.hpp"
 #include "base/rounding.hpp"
 #include "gis/case_inputs.hpp"
-#include "gis/coverage.hpp"
 #include "gis/features.hpp"
 #include "gis/filters.hpp"
 #include "gis/point_window.hpp"
+#include "gis/polygons.hpp"
 #include "gis/release_area.hpp"
-#include "gis/release_thickness.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {

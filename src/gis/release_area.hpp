@@ -1,7 +1,8 @@
 // Area of a release: the polygons of a file or, without these, the points at which a raster has a thickness or a
-// surface lies above the ground.
+// surface lies above the ground; and its thickness there.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -34,5 +35,16 @@ inline constexpr const char* swapped_dem =
 // Reads the release and checks that it lies within the domain and the DEM. Appends warnings.
 [[nodiscard]] ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
                                             std::vector<std::string>& warnings);
+
+// Vertical thickness of a release at the points of the ground [m], at the points of the area's `fraction`, with its
+// taper. Throws UserError if it is missing or negative. Appends warnings.
+[[nodiscard]] Raster vertical_thickness_of(const config::Case& parameters, const std::string& body,
+                                           const ReleaseArea& area, const Dem& ground,
+                                           std::vector<std::string>& warnings);
+
+// Vertical thickness [m] of a layer `along_normal` [m] thick on a plane with the gradient dz/dx, dz/dy.
+inline double vertical_thickness(double along_normal, double dz_dx, double dz_dy) {
+  return along_normal * std::sqrt(1.0 + dz_dx * dz_dx + dz_dy * dz_dy);
+}
 
 }  // namespace thawslide::gis

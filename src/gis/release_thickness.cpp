@@ -1,15 +1,15 @@
-#include "gis/release_thickness.hpp"
-
+// Vertical thickness of a release.
 #include <optional>
 #include <utility>
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "gis/case_inputs.hpp"
-#include "gis/coverage.hpp"
 #include "gis/features.hpp"
 #include "gis/filters.hpp"
 #include "gis/point_window.hpp"
+#include "gis/polygons.hpp"
+#include "gis/release_area.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {

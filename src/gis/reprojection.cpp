@@ -9,7 +9,6 @@
 #include "base/rounding.hpp"
 #include "base/text.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 #include "gis/reference_system.hpp"
 
 namespace thawslide::gis {

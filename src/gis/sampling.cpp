@@ -8,9 +8,9 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
-#include "gis/coverage.hpp"
 #include "gis/filters.hpp"
 #include "gis/point_window.hpp"
+#include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 

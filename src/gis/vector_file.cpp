@@ -17,7 +17,6 @@
 #include "config/problems.hpp"
 #include "gis/data_set.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/gdal_types.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
 

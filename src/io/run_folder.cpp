@@ -106,6 +106,14 @@ std::set<std::string> inputs_of(const Json& facts) {
   return names;
 }
 
+// Folders of a run, and which files in them belong to it.
+std::vector<std::pair<std::string, IsOwn>> folders_of(const fs::path& run) {
+  const auto is_input = [inputs = inputs_of(run_json(run))](const fs::path& file) {
+    return inputs.count(file.filename().string()) > 0;
+  };
+  return {{"snapshots", is_snapshot}, {"inputs", is_input}, {"maps", is_map}, {"figures", is_figure}};
+}
+
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -241,17 +249,14 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
 }
 
 void copy_files_of_run(const fs::path& from, const fs::path& to) {
-  const std::set<std::string> inputs = inputs_of(run_json(from));
-  const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
-  const std::pair<const char*, IsOwn> paths[] = {{"snapshots", is_snapshot}, {"inputs", is_input}, {"maps", is_map}};
-  for (const auto& [name, is_own] : paths) {
-    if (!is_real_folder(from / name)) {
+  for (const auto& [name, is_own] : folders_of(from)) {
+    if (name == "figures" || !is_real_folder(from / name)) {
       continue;
     }
     make_folder(to / name);
     for (const fs::path& file : entries_of(from / name)) {
       if (fs::is_regular_file(fs::symlink_status(file)) && is_own(file)) {
-        copy_or_throw(file, to / name / file.filename(), std::string_view(name) == "snapshots");
+        copy_or_throw(file, to / name / file.filename(), name == "snapshots");
       }
     }
   }
@@ -264,11 +269,7 @@ void copy_files_of_run(const fs::path& from, const fs::path& to) {
 }
 
 void remove_files_of_run(const fs::path& from, const fs::path& folder) {
-  const std::set<std::string> inputs = inputs_of(run_json(from));
-  const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
-  const std::pair<const char*, IsOwn> paths[] = {
-      {"snapshots", is_snapshot}, {"inputs", is_input}, {"figures", is_figure}, {"maps", is_map}};
-  for (const auto& [name, is_own] : paths) {
+  for (const auto& [name, is_own] : folders_of(from)) {
     const fs::path path = folder / name;
     if (is_real_folder(path)) {
       remove_own_of(path, is_own);

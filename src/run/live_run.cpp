@@ -12,9 +12,8 @@
 #include "run/resume_checks.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
-#include "run/schedule.hpp"
+#include "run/run_output.hpp"
 #include "run/setup.hpp"
-#include "run/state.hpp"
 #include "run/step_warnings.hpp"
 #include "sim/checks/body_figures.hpp"
 #include "sim/records/end_state.hpp"
@@ -202,8 +201,8 @@ class LiveRunOf final : public LiveRun {
 
   [[nodiscard]] std::string checkpoint() const override {
     require_intact_device();
-    if (!end_text_.empty()) {
-      throw UserError("no particles are left to continue with: " + end_text_);
+    if (const std::string& left = simulation_->left_text(); !left.empty()) {
+      throw UserError("no particles are left to continue with: {}", left);
     }
     NamedNumbers blocks = records_.state();
     add_state<Dim>(*simulation_, blocks);
@@ -251,7 +250,6 @@ class LiveRunOf final : public LiveRun {
     simulation_ = std::move(next);
     records_ = std::move(records);
     history_ = std::move(rows);
-    end_text_.clear();
     const double time = simulation_->time(), last_step = simulation_->last_step();
     history_schedule_ = history_schedule(parameters().time, time, last_step);
     snapshot_schedule_ = snapshot_schedule(parameters().time, time, last_step);
@@ -311,7 +309,6 @@ class LiveRunOf final : public LiveRun {
   Schedule history_schedule_, snapshot_schedule_;
   StepWarnings warnings_;
   std::vector<sim::HistoryRow> history_;
-  std::string end_text_;  // of a slide that has left
 };
 
 }  // namespace

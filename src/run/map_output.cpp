@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/raster_sampling.hpp"
-#include "gis/coverage.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/map_style.hpp"
+#include "gis/polygons.hpp"
 #include "gis/raster_file.hpp"
 #include "io/files.hpp"
 

@@ -9,7 +9,6 @@
 #include "base/shell_quote.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
-#include "run/schedule.hpp"
 #include "run/step_warnings.hpp"
 #include "sim/direction.hpp"
 #include "sim/records/history.hpp"
@@ -347,5 +346,44 @@ template ExitCode start_and_run<2>(sim::Simulation<2>&, RunOutput<2>&, const std
 template ExitCode start_and_run<3>(sim::Simulation<3>&, RunOutput<3>&, const std::filesystem::path&, Observer&);
 template ExitCode run_to_end<2>(sim::Simulation<2>&, RunOutput<2>&, const std::filesystem::path&, Observer&);
 template ExitCode run_to_end<3>(sim::Simulation<3>&, RunOutput<3>&, const std::filesystem::path&, Observer&);
+
+Schedule::Schedule(double interval, double begin, double last_step, double end, double early)
+    : interval_(interval), end_(end), early_(early), next_(interval > 0.0 ? std::min(interval, end) : end) {
+  pass(begin, last_step);
+}
+
+void Schedule::pass(double time, double step) {
+  if (interval_ <= 0.0) {
+    return;
+  }
+  // Computes the first multiple after the time directly, because counting takes too long for tiny intervals. Rounding
+  // of the quotient may make the floor too small by up to two.
+  const double beyond = time + early_ * step;
+  count_ = std::max(count_, std::floor(beyond / interval_));
+  for (int k = 0; k < 2 && count_ * interval_ <= beyond; ++k) {
+    ++count_;
+  }
+  next_ = std::min(count_ * interval_, end_);
+}
+
+bool Schedule::reached(double time, double step) {
+  if (time < next_ - (next_ < end_ ? early_ : 0.5) * step) {
+    return false;
+  }
+  pass(time, step);
+  return true;
+}
+
+bool has_reached_end(double time, double last_step, double end) { return time >= end - 0.5 * last_step; }
+
+Schedule history_schedule(const config::Time& times, double time, double last_step) {
+  constexpr double round_off = 1e-6;  // of a step
+  return {times.history_interval, time, last_step, times.end,
+          times.stepping == config::Stepping::adaptive ? round_off : 0.5};
+}
+
+Schedule snapshot_schedule(const config::Time& times, double time, double last_step) {
+  return {times.output_interval, time, last_step, times.end};
+}
 
 }  // namespace thawslide::run

@@ -1,7 +1,8 @@
-// Time loop of a run from its present time to its end, with output and reports to an observer.
+// Time loop of a run from its present time to its end, with output at its times and reports to an observer.
 #pragma once
 
 #include "base/error.hpp"
+#include "config/case.hpp"
 #include "run/observer.hpp"
 #include "run/run_output.hpp"
 
@@ -29,5 +30,31 @@ auto with_dimension(int dimension, const Work& work) {
 
 // Sets the number of threads; 0: all available cores.
 void use_threads(int threads);
+
+// Output times: every multiple of an interval, and the end.
+class Schedule {
+ public:
+  // Begins at `begin`, reached by a step of `last_step` (0: no step yet), as if the run had been uninterrupted. early:
+  // fraction of a step by which a step may end before a time and still reach it; for the end it is 0.5.
+  Schedule(double interval, double begin, double last_step, double end, double early = 0.5);
+  [[nodiscard]] double next() const { return next_; }
+  // Returns whether the next time is reached, and if so advances to the following one.
+  bool reached(double time, double step);
+
+ private:
+  void pass(double time, double step);
+
+  double interval_, end_, early_, next_;
+  double count_ = 1.0;  // intervals up to the next time
+};
+
+// True if the last step has reached the end, to half a step: fixed steps may end that much early.
+[[nodiscard]] bool has_reached_end(double time, double last_step, double end);
+
+// Schedules of history rows and snapshots, from the time of the last step on. A row follows the first adaptive step
+// that reaches its time, within round-off. Adaptive steps end at snapshots, so each snapshot can have a row of the same
+// time. With fixed steps, a row follows the nearest step.
+[[nodiscard]] Schedule history_schedule(const config::Time& times, double time, double last_step);
+[[nodiscard]] Schedule snapshot_schedule(const config::Time& times, double time, double last_step);
 
 }  // namespace thawslide::run

@@ -7,7 +7,6 @@
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "run/input_files.hpp"
-#include "run/state.hpp"
 #include "sim/records/base_table.hpp"
 #include "sim/records/history.hpp"
 

@@ -29,9 +29,8 @@
 #include "run/resume_checks.hpp"
 #include "run/run_cost.hpp"
 #include "run/run_loop.hpp"
-#include "run/schedule.hpp"
+#include "run/run_output.hpp"
 #include "run/setup.hpp"
-#include "run/state.hpp"
 
 namespace thawslide::run {
 

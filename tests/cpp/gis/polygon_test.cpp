@@ -3,7 +3,6 @@
 #include <numeric>
 #include <random>
 
-#include "gis/coverage.hpp"
 #include "gis/polygons.hpp"
 #include "map_files.hpp"
 
