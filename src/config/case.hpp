@@ -13,10 +13,9 @@
 #include <vector>
 
 #include "base/table.hpp"
-#include "config/case_bed.hpp"
+#include "config/case_base.hpp"
 #include "config/case_output.hpp"
 #include "config/case_source.hpp"
-#include "physics/basal/parameter.hpp"
 #include "physics/mixture.hpp"
 #include "physics/options.hpp"
 
@@ -28,7 +27,6 @@ using physics::BandGrowth;
 using physics::BandRegion;
 using physics::BoundaryKind;
 using physics::EndOfWater;
-using physics::FrictionClamp;
 using physics::FrozenRows;
 using physics::HeatBoundaryKind;
 using physics::ShapeFunction;
@@ -223,40 +221,6 @@ struct Mechanics {
   double mass_damping = 0.0;      // 1/s, during the run
   bool split_stretched = false;
   double split_limit = 8.0;  // of the number of particles, relative to t = 0
-};
-
-// Parameters of basal laws by key; an absent one has its default.
-struct LawNumbers {
-  std::map<std::string, double> by_key;
-
-  [[nodiscard]] double operator()(const physics::basal::Parameter& number) const;
-  [[nodiscard]] double& operator[](const physics::basal::Parameter& number);
-};
-
-// Strength of one kind of ground: keywords of physics/basal/laws.hpp, and the parameters of these laws.
-struct GroundStrength {
-  std::string friction = "lubricated";
-  std::string cohesion_law = "slip";
-  LawNumbers numbers;
-};
-
-struct Basal : GroundStrength {
-  FrictionClamp clamp = FrictionClamp::keep_cohesion;
-  bool cap_pressure = false;   // P <= N
-  double heat_fraction = 1.0;  // energy conversion coefficient
-  bool distance_check = true;
-};
-
-// Ground with separate properties, and its extent: along x, within polygons, or where a raster has its code.
-struct Substrate : GroundStrength {
-  double x_min = -std::numeric_limits<double>::infinity(), x_max = std::numeric_limits<double>::infinity();
-  std::string outline;                // file of polygons; absolute once read; empty: none
-  std::vector<std::string> polygons;  // names of the polygons that bound it; empty: all
-  std::string name_attribute = "name";
-  std::string raster;  // raster of codes; absolute once read; empty: none
-  int code = 0;
-
-  [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
 };
 
 // Contact between bodies: [contact] for all, [contact_pair.NAME] for two.

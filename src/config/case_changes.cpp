@@ -130,11 +130,9 @@ std::vector<std::string> differences(const std::string& now, const std::string& 
   }
   std::vector<std::string> found;
   for (const auto& [key, value] : past) {
-    const auto other = present.find(key);
-    if (other == present.end()) {
-      found.push_back(fmt::format("{} is missing, was {}", key, value));
-    } else if (other->second != value) {
-      found.push_back(fmt::format("{} is {}, was {}", key, other->second, value));
+    const std::string now_text = present.count(key) == 0 ? "missing" : present.at(key);
+    if (now_text != value) {
+      found.push_back(fmt::format("{} is {}, was {}", key, now_text, value));
     }
   }
   for (const auto& [key, value] : present) {

@@ -122,9 +122,6 @@ double distance_to_edge(const Raster& dem, const ReleaseExtent& release, double 
   return nearest;
 }
 
-// Removes the round-off of a product from a number for a file.
-double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
-
 struct Stretch {
   double low = 0.0, high = 0.0;
 };

@@ -15,10 +15,8 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr double fewest_cells = 2.0;    // of the domain along each axis
 constexpr double most_intervals = 1e9;  // within the run: more are unintended and cannot be written
 constexpr double most_cells = 5e5;      // limit of the tile numbers in the sparse grid
-const char* const axis_names[] = {"x", "y", "z"};
 
 void check_grid(const Case& checked, Reading& reading) {
   const Grid& grid = checked.grid;
@@ -27,26 +25,22 @@ void check_grid(const Case& checked, Reading& reading) {
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
     const double length = grid.max[a] - grid.min[a];
-    if (!(length > 0.0)) {
-      reading.report_misfit({"grid.max", "grid.min"},
-                            fmt::format("grid.max is {} along {}, not above grid.min, which is {}; give the domain a "
-                                        "highest corner above its lowest one.",
-                                        grid.max[a], axis_names[a], grid.min[a]));
-      return;
-    }
     const double cells = length / grid.cell;
-    if (cells > most_cells) {
-      reading.report_misfit({"grid.cell", "grid.max", "grid.min"},
-                            fmt::format("grid.cell is {} m, and the domain is {} m long along {}: {} cells; allowed: "
-                                        "at most {}. Make the cell larger or the domain smaller.",
-                                        grid.cell, length, axis_names[a], count_text(cells), count_text(most_cells)));
-      return;
-    }
-    if (cells < fewest_cells) {
-      reading.report_misfit({"grid.cell", "grid.max", "grid.min"},
-                            fmt::format("grid.cell is {} m, and the domain is {} m long along {}; allowed: at least "
-                                        "{} cells along each axis. Make the cell smaller or the domain larger.",
-                                        grid.cell, length, axis_names[a], fewest_cells));
+    reading.refuse_if(
+        !(length > 0.0), {"grid.max", "grid.min"},
+        "grid.max is {} along {}, not above grid.min, which is {}; give the domain a highest corner above "
+        "its lowest one.",
+        grid.max[a], axis_names[a], grid.min[a]);
+    reading.refuse_if(
+        cells > most_cells, {"grid.cell", "grid.max", "grid.min"},
+        "grid.cell is {} m, and the domain is {} m long along {}: {} cells; allowed: at most {}. Make the "
+        "cell larger or the domain smaller.",
+        grid.cell, length, axis_names[a], count_text(cells), count_text(most_cells));
+    reading.refuse_if(cells < fewest_cells, {"grid.cell", "grid.max", "grid.min"},
+                      "grid.cell is {} m, and the domain is {} m long along {}; allowed: at least {} cells along each "
+                      "axis. Make the cell smaller or the domain larger.",
+                      grid.cell, length, axis_names[a], fewest_cells);
+    if (!reading.are_valid({"grid.cell", "grid.max"})) {
       return;
     }
     const bool begins_at_terrain = a + 1 == static_cast<std::size_t>(checked.general.dimension) && has_terrain(checked);
@@ -73,19 +67,20 @@ void check_materials(const Case& checked, Reading& reading) {
                       "cohesion. Give a residual at most the cohesion.",
                       table, material.residual_cohesion, material.cohesion);
     reading.refuse_if(material.dilation_angle > material.friction_angle, {dilation, friction},
-                      "{} is {} degrees, above {}, which is {} degrees; allowed: at most the friction angle, otherwise "
-                      "plastic flow creates energy.",
-                      dilation, material.dilation_angle, friction, material.friction_angle);
+                      "{0}.dilation_angle is {1} degrees, above {0}.friction_angle, which is {2} degrees; allowed: at "
+                      "most the friction angle, otherwise plastic flow creates energy.",
+                      table, material.dilation_angle, material.friction_angle);
     reading.refuse_if(material.residual_friction_angle > material.friction_angle, {residual, friction},
-                      "{} is {} degrees, above {}, which is {} degrees; softening cannot increase friction. Give a "
-                      "residual at most the friction angle.",
-                      residual, material.residual_friction_angle, friction, material.friction_angle);
+                      "{0}.residual_friction_angle is {1} degrees, above {0}.friction_angle, which is {2} degrees; "
+                      "softening cannot increase friction. Give a residual at most the friction angle.",
+                      table, material.residual_friction_angle, material.friction_angle);
     reading.refuse_if(material.residual_friction_angle < material.dilation_angle &&
                           material.dilation_angle <= material.friction_angle,
                       {residual, dilation},
-                      "{} is {} degrees, below {}, which is {} degrees; allowed: at least the dilation angle, which "
-                      "does not soften, otherwise plastic flow creates energy.",
-                      residual, material.residual_friction_angle, dilation, material.dilation_angle);
+                      "{0}.residual_friction_angle is {1} degrees, below {0}.dilation_angle, which is {2} degrees; "
+                      "allowed: at least the dilation angle, which does not soften, otherwise plastic flow creates "
+                      "energy.",
+                      table, material.residual_friction_angle, material.dilation_angle);
   }
 }
 

@@ -7,6 +7,8 @@
 
 namespace thawslide::config {
 
+inline constexpr const char* axis_names[] = {"x", "y", "z"};
+
 // Adds a problem for each inconsistency. Skips checks of keys that already have a problem.
 void check_case(const Case& checked, Reading& reading);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portability.hpp"
 #include "base/rounding.hpp"
 #include "config/checks.hpp"
 
@@ -11,8 +12,7 @@ namespace thawslide::config {
 
 namespace {
 
-const char* const axis_names[] = {"x", "y", "z"};
-constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr double radians_per_degree = pi / 180.0;
 constexpr double rounding_depth =
     1e-3;                      // fraction of a cell: depth to which a body may extend into the ground by rounding
 constexpr double flat = 1e-9;  // fraction of the squared size of a polygon: an area due to rounding
@@ -26,7 +26,7 @@ double ground_at(const Case& checked, const ProfileTable& profile, double x) {
     case TerrainKind::flat:
       return checked.terrain.elevation;
     case TerrainKind::plane:
-      return checked.terrain.elevation - std::tan(checked.terrain.slope * degree) * x;
+      return checked.terrain.elevation - std::tan(checked.terrain.slope * radians_per_degree) * x;
     case TerrainKind::profile:
       return profile.empty() ? -INFINITY : profile.terrain_at(x);
   }
@@ -211,27 +211,28 @@ void check_surface(const Case& checked, const ProfileTable& profile, const std::
   if (checked.terrain.kind != TerrainKind::profile) {
     reading.report_misfit(
         {shape, "terrain.type"},
-        fmt::format("{} is \"surface\", and terrain.type is not \"profile\"; that shape takes the body "
-                    "from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use "
-                    "the shape \"box\" or \"polygon\".",
-                    shape));
+        fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape takes the body from the "
+                    "profile's surface_elevation_m. Set terrain.type and terrain.file, or use the shape \"box\" or "
+                    "\"polygon\".",
+                    table));
   }
   if (profile.empty()) {
     return;
   }
   if (profile.surface.empty()) {
-    reading.report_misfit({shape, "terrain.file"},
-                          fmt::format("{} is \"surface\", and the profile has no column surface_elevation_m; add it to "
-                                      "{}, or use the shape \"box\" or \"polygon\".",
-                                      shape, checked.terrain.file));
+    reading.report_misfit(
+        {shape, "terrain.file"},
+        fmt::format("{}.shape is \"surface\", and the profile has no column surface_elevation_m; add it to {}, or use "
+                    "the shape \"box\" or \"polygon\".",
+                    table, checked.terrain.file));
   } else if (const auto [low, high] = surface_extent(profile); low[0] < high[0]) {
     check_in_domain(checked, low, high, table, shape, shape, reading);
   } else {
-    reading.report_misfit({shape, "terrain.file"},
-                          fmt::format("{} is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: "
-                                      "the body holds nothing. Raise the surface there, or use the shape \"box\" or "
-                                      "\"polygon\".",
-                                      shape, checked.terrain.file));
+    reading.report_misfit(
+        {shape, "terrain.file"},
+        fmt::format("{}.shape is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: the body "
+                    "holds nothing. Raise the surface there, or use the shape \"box\" or \"polygon\".",
+                    table, checked.terrain.file));
   }
 }
 
@@ -307,10 +308,8 @@ void check_frame(const Case& checked, const std::string& name, const Frame& fram
   if (ordered && reading.are_valid({"grid.min", "grid.max", "time.end", table + ".axis", table + ".velocity"})) {
     check_frame_meets_domain(checked, frame, table, reading);
   }
-  if (reading.are_valid({table + ".axis"}) && frame.axis == "z" && checked.general.dimension == 2) {
-    reading.report(table + ".axis",
-                   fmt::format("{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\". Up is \"y\" there.", table));
-  }
+  reading.refuse_if(frame.axis == "z" && checked.general.dimension == 2, {table + ".axis"},
+                    "{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\". Up is \"y\" there.", table);
 }
 
 }  // namespace

@@ -14,11 +14,7 @@ namespace {
 constexpr double leeway = 1.5;          // factor by which the cell may be finer or coarser
 constexpr double little = 1.25;         // factor accepted for a cell of few digits if others fit better
 constexpr double finest_unit = 1e-6;    // [m], of lengths: other lengths have no common measure
-constexpr double fewest_cells = 2.0;    // of the domain along each axis
 constexpr double longest_count = 1e15;  // units that are exact as floating-point numbers
-
-// Removes the round-off of a product from a number for a message.
-double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
 
 double of_few_digits(double number) { return std::stod(fmt::format("{:.2g}", number)); }
 

@@ -1,11 +1,19 @@
 // Cell sizes that divide the domain into a whole number along each axis, for advice that can be applied directly.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <string>
 #include <vector>
 
 #include "config/case.hpp"
 
 namespace thawslide::config {
+
+inline constexpr double fewest_cells = 2.0;  // of the domain along each axis
+
+// Removes the round-off of a product from a number for a file or a message.
+[[nodiscard]] inline double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
 
 // Largest number of one or two digits (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is at most x.
 [[nodiscard]] double round_down(double x);

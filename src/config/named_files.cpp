@@ -10,34 +10,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Map files of bodies, maps and probes; may contain empty names.
-std::vector<InputFile> map_files(const Case& parameters) {
-  std::vector<InputFile> files{{"maps.path", parameters.maps.path}};
+// Calls add(key, file) for the map files of bodies, maps and probes; names may be empty.
+template <class Add>
+void add_map_files(const Case& parameters, const Add& add) {
+  add("maps.path", parameters.maps.path);
   for (const auto& [name, body] : parameters.bodies) {
     const std::string table = "body." + name + ".";
-    files.push_back({table + "release", body.release});
+    add(table + "release", body.release);
     if (body.thickness.from == MapValue::From::raster || body.thickness.from == MapValue::From::surface) {
-      files.push_back({table + "thickness", body.thickness.source});
+      add(table + "thickness", body.thickness.source);
     }
     for (const auto& [key, field] : fields_of(body)) {
       if (field->over == InitialField::Over::raster) {
-        files.push_back({table + key, field->source});
+        add(table + key, field->source);
       }
     }
   }
   for (const auto& [name, substrate] : parameters.substrates) {
     const std::string table = "substrate." + name + ".";
-    files.push_back({table + "outline", substrate.outline});
-    files.push_back({table + "raster", substrate.raster});
+    add(table + "outline", substrate.outline);
+    add(table + "raster", substrate.raster);
   }
-  files.push_back({"bed.outline", parameters.bed.outline});
+  add("bed.outline", parameters.bed.outline);
   if (parameters.bed.depth.over == InitialField::Over::raster) {
-    files.push_back({"bed.depth", parameters.bed.depth.source});
+    add("bed.depth", parameters.bed.depth.source);
   }
   for (const auto& [name, probe] : parameters.probes) {
-    files.push_back({"probe." + name + ".line", probe.line});
+    add("probe." + name + ".line", probe.line);
   }
-  return files;
 }
 
 }  // namespace
@@ -57,9 +57,7 @@ std::vector<InputFile> named_files(const Case& parameters) {
   add("report.logo", parameters.report.logo, false);
   add("report.targets", parameters.report.targets, false);
   add("report.force_record", parameters.report.force_record, false);
-  for (const InputFile& map : map_files(parameters)) {
-    add(map.key, map.file, true);
-  }
+  add_map_files(parameters, [&add](const std::string& key, const std::string& file) { add(key, file, true); });
   return files;
 }
 

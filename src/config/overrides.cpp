@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "base/composition.hpp"
@@ -16,13 +17,10 @@ namespace thawslide::config {
 namespace {
 
 std::vector<std::string> split_at_dots(const std::string& key) {
-  std::vector<std::string> parts(1);
-  for (const char letter : key) {
-    if (letter == '.') {
-      parts.emplace_back();
-    } else {
-      parts.back() += letter;
-    }
+  std::vector<std::string> parts;
+  std::istringstream stream(key + ".");
+  for (std::string part; std::getline(stream, part, '.');) {
+    parts.push_back(part);
   }
   return parts;
 }
@@ -75,6 +73,13 @@ bool defines_table(const TableDeclaration& table, const std::string& own_name, c
   });
 }
 
+// Declaration of the named tables [NAME.x]; null if there are none.
+const TableDeclaration* named_table(const std::string& name) {
+  const auto found = std::find_if(tables().begin(), tables().end(),
+                                  [&](const auto& table) { return table->is_named() && table->name == name; });
+  return found == tables().end() ? nullptr : found->get();
+}
+
 // A key of a named table must use a name from the file, or define a new table; otherwise a typing error would create a
 // second body.
 bool may_name_table(const Override& override, const std::vector<std::string>& parts, const toml::table& root,
@@ -82,34 +87,28 @@ bool may_name_table(const Override& override, const std::vector<std::string>& pa
   if (parts.size() < 3) {
     return true;
   }
-  for (const auto& table : tables()) {
-    if (!table->is_named() || table->name != parts[0]) {
-      continue;
-    }
-    std::vector<std::string> names;
-    if (const toml::table* found = root.get_as<toml::table>(parts[0])) {
-      for (const auto& [key, node] : *found) {
-        names.emplace_back(key.str());
-      }
-    }
-    if (std::find(names.begin(), names.end(), parts[1]) == names.end() && !defines_table(*table, parts[1], reading)) {
-      reading.problems.add(location_of(override),
-                           fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
-                                       nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
-                                       names.empty() ? "none" : comma_list(names)));
-      return false;
+  const TableDeclaration* table = named_table(parts[0]);
+  std::vector<std::string> names;
+  if (const toml::table* found = root.get_as<toml::table>(parts[0])) {
+    for (const auto& [key, node] : *found) {
+      names.emplace_back(key.str());
     }
   }
-  return true;
+  if (table == nullptr || std::find(names.begin(), names.end(), parts[1]) != names.end() ||
+      defines_table(*table, parts[1], reading)) {
+    return true;
+  }
+  reading.problems.add(location_of(override),
+                       fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
+                                   nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
+                                   names.empty() ? "none" : comma_list(names)));
+  return false;
 }
 
 // A named table has no value itself: one of its keys was intended.
 bool fits_named_table(const Override& override, const std::vector<std::string>& parts, const toml::node& value,
                       Reading& reading) {
-  const bool is_named = std::any_of(tables().begin(), tables().end(), [&](const auto& table) {
-    return table->is_named() && parts.size() == 2 && table->name == parts[0];
-  });
-  if (!is_named || value.is_table()) {
+  if (parts.size() != 2 || named_table(parts[0]) == nullptr || value.is_table()) {
     return true;
   }
   reading.problems.add(location_of(override),

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "base/error.hpp"
@@ -14,6 +13,7 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
+#include "config/table_csv.hpp"
 
 namespace thawslide::config {
 
@@ -28,10 +28,9 @@ const Fields all_columns{"distance_m", "terrain_elevation_m", "surface_elevation
 
 Fields split_at_commas(const std::string& line) {
   Fields fields;
-  std::size_t begin = 0;
-  for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-    comma = line.find(',', begin);
-    fields.push_back(trimmed(line.substr(begin, comma == std::string::npos ? comma : comma - begin)));
+  std::istringstream stream(line + ",");
+  for (std::string field; std::getline(stream, field, ',');) {
+    fields.push_back(trimmed(field));
   }
   return fields;
 }
@@ -133,11 +132,8 @@ class ProfileReader {
   }
 
   double number(const std::string& field, std::size_t column) const {
-    const char* begin = field.data() + (!field.empty() && field.front() == '+' ? 1 : 0);
-    const char* end = field.data() + field.size();
     double value = 0.0;
-    const auto result = std::from_chars(begin, end, value);
-    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+    if (!read_finite_number(field, value).empty()) {
       fail(fmt::format("{} is '{}'; allowed: a finite number with a decimal point", all_columns[column], shown(field)));
     }
     return value;

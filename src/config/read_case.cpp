@@ -40,8 +40,9 @@ fs::path find_case_file(const fs::path& given) {
   if (fs::is_regular_file(given, error)) {
     return given;
   }
-  if (const std::string found = other_kind_of_file(given); !found.empty() && !fs::is_directory(given, error)) {
-    throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", given.string(), found));
+  const fs::path file = fs::is_directory(given, error) ? given / "case.toml" : given;
+  if (const std::string found = other_kind_of_file(file); !found.empty()) {
+    throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", file.string(), found));
   }
   if (!fs::is_directory(given, error)) {
     const fs::path normal = given.has_filename() ? given : given.parent_path();
@@ -50,10 +51,6 @@ fs::path find_case_file(const fs::path& given) {
           const std::string hint = did_you_mean(normal.filename().string(), names_in(normal.parent_path(), ""));
           return hint.empty() ? "." : hint;
         }()));
-  }
-  const fs::path file = given / "case.toml";
-  if (const std::string found = other_kind_of_file(file); !found.empty()) {
-    throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", file.string(), found));
   }
   if (!fs::is_regular_file(file, error)) {
     const std::vector<std::string> others = names_in(given, ".toml");

@@ -37,7 +37,7 @@ struct ReportedQuantity {
 constexpr const char* sets_clock = "start_velocity";
 constexpr const char* reported_force = "max_seismic_force";
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double absolute_zero = -273.15;                       // C
 constexpr double shortest_period = 1e-3, longest_period = 1e5;  // s
 constexpr double degrees_per_radian = 57.29577951308232;
@@ -52,7 +52,7 @@ std::optional<double> plain_decimal(const std::string& text) {
   if (!is_whole(text.substr(0, point)) || (point != std::string::npos && !is_whole(text.substr(point + 1)))) {
     return std::nullopt;
   }
-  double value = infinity;
+  double value = unbounded;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
 }
@@ -82,22 +82,22 @@ const std::vector<ReportedQuantity>& reported_quantities() {
       volume{{"m3"}, {"m³"}, {"million m3", 1e6}, {"million m³", 1e6}, {"km3", 1e9}, {"km³", 1e9}},
       angle{{"degrees"}, {"deg"}, {"°"}, {"rad", degrees_per_radian}}, fraction{{"-"}, {"1"}, {""}, {"%", 1e-2}};
   static const std::vector<ReportedQuantity> all{
-      {sets_clock, &speed, 0.0, infinity, false},
-      {"mean_velocity", &speed, 0.0, infinity, true},
-      {"mean_displacement", &length, 0.0, infinity, true},
-      {"front_distance", &length, 0.0, infinity, true},
+      {sets_clock, &speed, 0.0, unbounded, false},
+      {"mean_velocity", &speed, 0.0, unbounded, true},
+      {"mean_displacement", &length, 0.0, unbounded, true},
+      {"front_distance", &length, 0.0, unbounded, true},
       {"band_SL", &fraction, 0.0, 1.0, true},
       {"band_saturation", &fraction, 0.0, 1.0, true},
-      {"band_temperature", &temperature, absolute_zero, infinity, true},
-      {"band_pore_pressure", &pressure, -infinity, infinity, true},
-      {"band_friction_coefficient", &fraction, 0.0, infinity, true},
-      {reported_force, &force, 0.0, infinity, false},
-      {"source_volume", &volume, 0.0, infinity, false},
-      {"source_mean_thickness", &length, 0.0, infinity, false},
-      {"deposit_volume", &volume, 0.0, infinity, false},
-      {"deposit_area", &area, 0.0, infinity, false},
-      {"travel_distance", &length, 0.0, infinity, false},
-      {"drop_height", &length, -infinity, infinity, false},
+      {"band_temperature", &temperature, absolute_zero, unbounded, true},
+      {"band_pore_pressure", &pressure, -unbounded, unbounded, true},
+      {"band_friction_coefficient", &fraction, 0.0, unbounded, true},
+      {reported_force, &force, 0.0, unbounded, false},
+      {"source_volume", &volume, 0.0, unbounded, false},
+      {"source_mean_thickness", &length, 0.0, unbounded, false},
+      {"deposit_volume", &volume, 0.0, unbounded, false},
+      {"deposit_area", &area, 0.0, unbounded, false},
+      {"travel_distance", &length, 0.0, unbounded, false},
+      {"drop_height", &length, -unbounded, unbounded, false},
       {"angle_of_reach", &angle, -90.0, 90.0, false},
   };
   return all;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -36,6 +37,14 @@ json array_schema(const json& items) { return {{"type", "array"}, {"items", item
 
 json number_schema() { return {{"type", "number"}}; }
 
+// "[a, b]" of the texts of elements.
+template <class Elements, class Text>
+std::string array_text(const Elements& elements, const Text& text_of) {
+  std::vector<std::string> texts;
+  std::transform(elements.begin(), elements.end(), std::back_inserter(texts), text_of);
+  return "[" + comma_list(texts) + "]";
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -60,11 +69,8 @@ std::string path_text(const std::string& path, const WriteContext& context) {
 }
 
 std::string keyword_list(const std::vector<Keyword>& keywords) {
-  std::vector<std::string> names;
-  for (const Keyword& keyword : keywords) {
-    names.push_back(quoted(keyword.name));
-  }
-  return comma_list(names);
+  const std::string list = array_text(keywords, [](const Keyword& keyword) { return quoted(keyword.name); });
+  return list.substr(1, list.size() - 2);
 }
 
 json keyword_schema(const std::vector<Keyword>& keywords) {
@@ -181,10 +187,7 @@ bool Value<std::string>::read(const toml::node& node, const ValueReader& at, std
   return true;
 }
 std::string Value<std::string>::write(const std::string& value, const Rule& rule, const WriteContext& context) {
-  if (!rule.is_path || value.empty()) {
-    return quoted(value);
-  }
-  return path_text(value, context);
+  return rule.is_path && !value.empty() ? path_text(value, context) : quoted(value);
 }
 json Value<std::string>::schema(const Rule& rule) {
   return rule.keywords.empty() ? json{{"type", "string"}} : keyword_schema(rule.keywords);
@@ -209,11 +212,7 @@ bool Value<Names>::read(const toml::node& node, const ValueReader& at, Names& va
   return true;
 }
 std::string Value<Names>::write(const Names& value, const Rule&, const WriteContext&) {
-  std::vector<std::string> texts;
-  for (const std::string& text : value) {
-    texts.push_back(quoted(text));
-  }
-  return "[" + comma_list(texts) + "]";
+  return array_text(value, quoted);
 }
 json Value<Names>::schema(const Rule&) { return array_schema({{"type", "string"}}); }
 
@@ -242,9 +241,8 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
   return true;
 }
 std::string Value<Point>::write(const Point& value, const Rule& rule, const WriteContext& context) {
-  const std::string plane = fmt::format("[{}, {}", number_text(value[0]), number_text(value[1]));
-  return context.dimension == 3 && !rule.horizontal ? fmt::format("{}, {}]", plane, number_text(value[2]))
-                                                    : plane + "]";
+  const std::size_t count = context.dimension == 3 && !rule.horizontal ? 3 : 2;
+  return array_text(std::vector<double>(value.begin(), value.begin() + count), number_text);
 }
 json Value<Point>::schema(const Rule& rule) {
   json schema = array_schema(number_schema());
@@ -275,11 +273,7 @@ bool Value<Vertices>::read(const toml::node& node, const ValueReader& at, Vertic
   return true;
 }
 std::string Value<Vertices>::write(const Vertices& value, const Rule&, const WriteContext&) {
-  std::vector<std::string> pairs;
-  for (const auto& vertex : value) {
-    pairs.push_back(fmt::format("[{}, {}]", number_text(vertex[0]), number_text(vertex[1])));
-  }
-  return "[" + comma_list(pairs) + "]";
+  return array_text(value, [](const auto& vertex) { return array_text(vertex, number_text); });
 }
 json Value<Vertices>::schema(const Rule&) {
   json schema = array_schema(array_schema(number_schema()));
@@ -304,11 +298,7 @@ bool Value<Numbers>::read(const toml::node& node, const ValueReader& at, Numbers
   return true;
 }
 std::string Value<Numbers>::write(const Numbers& value, const Rule&, const WriteContext&) {
-  std::vector<std::string> texts;
-  for (const double number : value) {
-    texts.push_back(number_text(number));
-  }
-  return "[" + comma_list(texts) + "]";
+  return array_text(value, number_text);
 }
 json Value<Numbers>::schema(const Rule& rule) { return array_schema(range_schema(rule.range, "number")); }
 
