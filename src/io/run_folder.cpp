@@ -27,7 +27,7 @@ using IsOwn = std::function<bool(const fs::path& file)>;
 constexpr std::string_view files_of_a_run =
     "history.csv probes.csv case.toml terrain.csv particles.vtkhdf checkpoint.bin checkpoint.previous.bin report.html "
     "comparison.html summary.html summary.pdf assets.csv terrain-after.tif";
-// In maps/, as GeoTIFF with a style (sim/maps/map_kinds.cpp, app/map_output.cpp).
+// In maps/, as GeoTIFF with a style (sim/maps/map_kinds.cpp, run/map_output.cpp).
 constexpr std::string_view maps_of_a_run =
     "terrain release ground max_thickness final_thickness max_speed max_momentum_flux max_pressure max_pressure_time "
     "arrival_time elevation_change max_basal_temperature max_melt max_pore_pressure";
