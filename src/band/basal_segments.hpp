@@ -90,9 +90,12 @@ class BasalSegments {
   [[nodiscard]] const ColumnLedger& budget() const { return state_.budget; }
   [[nodiscard]] double time_since_step() const { return state_.time_since_step; }
   void set_time_since_step(double time) { state_.time_since_step = time; }
-  [[nodiscard]] std::vector<SegmentBelow> summaries() requires(Dim == 3) {
-    summaries_.resize(segments_.size());
-    executor_.for_each(segments_.size(), SummarizeSegment{segments_.data(), summaries_.data()});
+  // For maps; empty in 2D.
+  [[nodiscard]] std::vector<SegmentBelow> summaries() {
+    if constexpr (Dim == 3) {
+      summaries_.resize(segments_.size());
+      executor_.for_each(segments_.size(), SummarizeSegment{segments_.data(), summaries_.data()});
+    }
     return summaries_.get();
   }
   [[nodiscard]] SegmentsState<Dim> state() const {
@@ -141,7 +144,8 @@ class BasalSegments {
   }
   template <class Base>
   bool some_node_is_bare(const Base& base) {
-    any_.set({0});
+    any_.resize(1);
+    executor_.for_each(1, exec::Fill<std::uint32_t>{any_.data(), 0});
     executor_.for_each(base.tables.blocks * block_nodes, bare_nodes(base, nullptr));
     return any_.get(0) != 0;
   }
@@ -152,7 +156,7 @@ class BasalSegments {
     const Lattice<Dim> lattice{cell_};
     const std::size_t all_nodes = base.tables.blocks * block_nodes;
     std::uint32_t* is_bare = selection_.marks(all_nodes);
-    any_.set({0});
+    any_.resize(1);
     executor_.for_each(all_nodes, bare_nodes(base, is_bare));
     keys_.resize(selection_.count());
     if (keys_.size() == 0) {
@@ -167,7 +171,7 @@ class BasalSegments {
     executor_.for_each(cells_.size(), exec::Fill<std::uint32_t>{is_kept, 1});
     executor_.for_each(segments_.size(),
                        LeaveOutCovered<Dim>{lattice, segments_.data(), cells_.data(), cells_.size(), is_kept});
-    selection_.keep(cells_, bare_cells_);
+    selection_.keep(selection_.count(), cells_, bare_cells_);
     const std::size_t count = bare_cells_.size(), known = segments_.size();
     if (count == 0) {
       return;
@@ -217,8 +221,8 @@ class BasalSegments {
     state_.checks_gaps = true;
   }
   void keep_marked() {
-    if (selection_.count() < segments_.size()) {
-      selection_.keep(segments_, kept_);
+    if (const std::size_t count = selection_.count(); count < segments_.size()) {
+      selection_.keep(count, segments_, kept_);
       segments_.swap(kept_);
     }
   }
@@ -227,14 +231,16 @@ class BasalSegments {
     constexpr double longest = 1.5;  // side of a segment along an axis, in cells
     const std::size_t count = segments_.size();
     const Splitting<Ground, Dim> splitting{longest * cell_, ground};
-    executor_.for_each(count, CountSplits<Ground, Dim>{splitting, segments_.data(), selection_.marks(count)});
+    numbers_.resize(count);
+    executor_.for_each(count,
+                       CountSplits<Ground, Dim>{splitting, segments_.data(), numbers_.data(), selection_.marks(count)});
     const std::size_t added = selection_.count();
     if (added == 0) {
       return;
     }
     segments_.grow(count + added);
-    executor_.for_each(count,
-                       SplitLong<Ground, Dim>{splitting, count, state_.next_id, selection_.before(), segments_.data()});
+    executor_.for_each(count, SplitLong<Ground, Dim>{splitting, count, state_.next_id, numbers_.data(),
+                                                     selection_.before(), segments_.data()});
     state_.next_id += static_cast<std::int64_t>(added);
   }
   template <class Ground>

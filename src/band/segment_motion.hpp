@@ -201,20 +201,21 @@ struct Splitting {
     place_on(ground, other);
   }
 };
-// Number of new segments from each. One thread per segment.
+// Sides to be split, as bits, and their number. One thread per segment.
 template <class Ground, int Dim>
 struct CountSplits {
   Splitting<Ground, Dim> splitting;
   const BasalSegment<Dim>* segments;
-  std::uint32_t* count;
+  std::uint32_t *sides, *count;
 
   THAWSLIDE_HD void operator()(std::size_t p) const {
     SegmentShape<Dim> segment = segments[p];
-    count[p] = 0;
+    sides[p] = count[p] = 0;
     for (int side = 0; side + 1 < Dim; ++side) {
       if (splitting.is_long(segment, side)) {
         SegmentShape<Dim> other = segment;
         splitting.split(side, segment, other);
+        sides[p] |= std::uint32_t{1} << side;
         ++count[p];
       }
     }
@@ -226,6 +227,7 @@ struct SplitLong {
   Splitting<Ground, Dim> splitting;
   std::size_t segment_count;
   std::int64_t next_id;
+  const std::uint32_t* sides;   // by segment
   const std::uint32_t* before;  // by segment: new ones of those before it
   BasalSegment<Dim>* segments;
 
@@ -233,7 +235,7 @@ struct SplitLong {
     BasalSegment<Dim>& segment = segments[p];
     std::uint32_t number = before[p];
     for (int side = 0; side + 1 < Dim; ++side) {
-      if (!splitting.is_long(segment, side)) {
+      if ((sides[p] >> side & 1) == 0) {
         continue;
       }
       segment.area *= 0.5;

@@ -99,13 +99,14 @@ void check_times(const Case& checked, Reading& reading) {
       {"time.history_interval", time.history_interval, "; 0: a row every step"},
       {"checkpoint.interval", checked.checkpoint.interval, "; 0: none by simulated time"}};
   for (const auto& [key, interval, or_none] : intervals) {
-    const bool is_given = reading.is_given(key);
-    reading.refuse_if(interval > 0.0 && interval < time.end / most_intervals,
-                      {is_given ? key : "time.end", is_given ? "time.end" : key},
-                      "{} is {} s, and the run of {} s has {} times as much; allowed: {:.4g} s and more, {} of them in "
-                      "the run{}. Make it longer, or the run shorter.",
-                      key, interval, time.end, rounded_text(time.end / interval, 2),
-                      rounded_up(time.end / most_intervals, 4), count_text(most_intervals), or_none);
+    if (reading.are_valid({key}) && interval > 0.0 && interval < time.end / most_intervals) {
+      const bool is_given = reading.is_given(key);
+      reading.report_misfit({is_given ? key : "time.end", is_given ? "time.end" : key},
+                            fmt::format("{} is {} s, and the run of {} s has {} times as much; allowed: {:.4g} s and "
+                                        "more, {} of them in the run{}. Make it longer, or the run shorter.",
+                                        key, interval, time.end, rounded_text(time.end / interval, 2),
+                                        rounded_up(time.end / most_intervals, 4), count_text(most_intervals), or_none));
+    }
   }
 }
 
@@ -123,12 +124,15 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
     return {};
   }
   const double from = profile.distance.front(), to = profile.distance.back();
-  reading.refuse_if(
-      !checked.terrain.extend && (from > checked.grid.min[0] || to < checked.grid.max[0]),
-      {"terrain.file", "grid.max", "grid.min", "terrain.extend"},
-      "the profile reaches from {} to {} m and the domain from {} to {} m; allowed: a profile that covers the domain. "
-      "Set terrain.extend = true to continue its last gradients, or make the domain shorter.",
-      from, to, checked.grid.min[0], checked.grid.max[0]);
+  if (!checked.terrain.extend && reading.are_valid({"grid.min", "grid.max"}) &&
+      (from > checked.grid.min[0] || to < checked.grid.max[0])) {
+    reading.report_misfit(
+        {"terrain.file", "grid.max", "grid.min", "terrain.extend"},
+        fmt::format(
+            "the profile reaches from {} to {} m and the domain from {} to {} m; allowed: a profile that covers "
+            "the domain. Set terrain.extend = true to continue its last gradients, or make the domain shorter.",
+            from, to, checked.grid.min[0], checked.grid.max[0]));
+  }
   return profile;
 }
 

@@ -250,14 +250,16 @@ void check_release_time(const Case& checked, const Body& body, const std::string
     return;
   }
   const bool is_staged = release.number > 0.0 || !release.attribute.empty();
-  reading.refuse_if(is_staged && body.velocity != Point{}, {table + ".velocity", key},
-                    "{}.velocity is {}, and {} holds the body at rest until its release. Remove one.", table,
-                    point_text(body.velocity, checked.general.dimension), key);
   reading.refuse_if(
       release.number >= checked.time.end, {key, "time.end"},
       "{} is {} s, and time.end is {} s: the body would be held for the whole run. Set an earlier time, or "
       "a later time.end.",
       key, release.number, checked.time.end);
+  if (is_staged && reading.are_valid({table + ".velocity"}) && body.velocity != Point{}) {
+    reading.report_misfit({table + ".velocity", key},
+                          fmt::format("{}.velocity is {}, and {} holds the body at rest until its release. Remove one.",
+                                      table, point_text(body.velocity, checked.general.dimension), key));
+  }
 }
 
 void check_body(const Case& checked, const ProfileTable& profile, const std::string& name, const Body& body,

@@ -189,14 +189,21 @@ void check_contact(const Case& checked, Reading& reading) {
       "{}: too many bodies, or groups of bonded ones, in frictional contact (found {}; allowed {}{}). Bond "
       "those that move as one by [contact_pair.NAME] with contact = \"bonded\".",
       key, layers.count, most, is_staged ? " with a body.NAME.release_time" : "");
-  reading.refuse_if(layers.count > 1 && has_band_columns(checked), {key, "band.model"},
-                    "{}: frictional contact between bodies and band.model = \"columns\" exclude each other. Set "
+  // Each of these is reported, although the first report marks `key` as invalid.
+  if (layers.count > 1 && reading.are_valid({"band.model"}) && has_band_columns(checked)) {
+    reading.report_misfit(
+        {key, "band.model"},
+        fmt::format("{}: frictional contact between bodies and band.model = \"columns\" exclude each other. Set "
                     "contact.between_bodies = \"bonded\", or band.model = \"scaled\".",
-                    key);
-  reading.refuse_if(layers.count > 1 && checked.bed.law != BedLaw::none, {key, "bed.law"},
-                    "{}: frictional contact between bodies and an erodible bed (bed.law) exclude each other. Set "
+                    key));
+  }
+  if (layers.count > 1 && reading.are_valid({"bed.law"}) && checked.bed.law != BedLaw::none) {
+    reading.report_misfit(
+        {key, "bed.law"},
+        fmt::format("{}: frictional contact between bodies and an erodible bed (bed.law) exclude each other. Set "
                     "contact.between_bodies = \"bonded\", or remove [bed].",
-                    key);
+                    key));
+  }
 }
 
 // True if some bodies have frictional contact; false while the case has problems.

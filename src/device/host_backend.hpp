@@ -118,17 +118,17 @@ class Host {
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
     wait();
-    std::copy_n(from, count, to);
+    std::memcpy(static_cast<void*>(to), from, count * sizeof(T));
   }
   template <class T>
   void copy(T* to, const T* from, std::size_t count) {
     wait();
-    std::copy_n(from, count, to);
+    std::memcpy(static_cast<void*>(to), from, count * sizeof(T));
   }
   template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
     wait();
-    std::copy_n(from, count, to);
+    std::memcpy(static_cast<void*>(to), from, count * sizeof(T));
   }
 
   // Launches work(k) for k = 0 .. count-1, one thread each.

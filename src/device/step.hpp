@@ -77,6 +77,7 @@ class Step {
     if (model.band_columns) {
       band_columns_.emplace(backend, *model.band_columns, model.cell, model.motion.gravity);
       band_columns_->set(model.segments);
+      passes_.model.segments = {};
     }
     if (callbacks.bed != nullptr) {
       bed_.emplace(backend, *callbacks.bed);

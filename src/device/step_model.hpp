@@ -76,8 +76,8 @@ struct HostCallbacks {
 
 // Sums for maps after a step (3D only), and basal segments.
 struct MapSample {
-  std::vector<std::uint64_t> keys;  // of cells below the active tiles, ascending (mpm::map_cell_key)
-  std::vector<mpm::MapSums> sums;   // by key
+  std::vector<std::uint64_t> keys;           // of cells below the active tiles, ascending (mpm::map_cell_key)
+  std::vector<mpm::MapSums> sums;            // by key
   std::vector<band::SegmentBelow> segments;  // empty without band columns
 };
 

@@ -1,5 +1,5 @@
-// Array in the memory of an executor: Cpu (exec/cpu.hpp), Cuda (device/cuda_executor.hpp), or Host, which emulates Cuda
-// (device/host_executor.hpp). An executor allocates memory, launches one thread per item, sorts, and computes prefix
+// Array in the memory of an executor: Cpu (exec/cpu.hpp), Cuda (device/cuda_backend.hpp), or Host, which emulates Cuda
+// (device/host_backend.hpp). An executor allocates memory, launches one thread per item, sorts, and computes prefix
 // sums; those of devices also launch one thread group per item.
 #pragma once
 

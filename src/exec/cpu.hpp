@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <new>
 #include <numeric>
 #include <utility>
@@ -26,15 +27,15 @@ class Cpu {
 
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
-    std::copy_n(from, count, to);
+    std::memcpy(static_cast<void*>(to), from, count * sizeof(T));
   }
   template <class T>
   void copy(T* to, const T* from, std::size_t count) {
-    std::copy_n(from, count, to);
+    std::memcpy(static_cast<void*>(to), from, count * sizeof(T));
   }
   template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
-    std::copy_n(from, count, to);
+    std::memcpy(static_cast<void*>(to), from, count * sizeof(T));
   }
 
   // Calls work(k) for k = 0 .. count-1, in tasks of Work::of_task items if it has this number.

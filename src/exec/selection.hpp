@@ -6,7 +6,7 @@
 
 namespace thawslide::exec {
 
-// Copies the marked items. Item: trivially copyable.
+// Copies the marked items.
 template <class Item>
 struct KeepMarked {
   const std::uint32_t *marks, *before;
@@ -41,10 +41,10 @@ class Selection {
   // Sum of the marks before each item, by the last call of count().
   [[nodiscard]] const std::uint32_t* before() const { return before_.data(); }
 
-  // Copies the marked items to another array.
+  // Copies the marked items, `count` by the last call of count(), to another array.
   template <class Item>
-  void keep(const Array<Item, Executor>& items, Array<Item, Executor>& kept) {
-    kept.resize(count());
+  void keep(std::size_t count, const Array<Item, Executor>& items, Array<Item, Executor>& kept) {
+    kept.resize(count);
     executor_.for_each(marks_.size(), KeepMarked<Item>{marks_.data(), before_.data(), items.data(), kept.data()});
   }
 

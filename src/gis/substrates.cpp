@@ -112,7 +112,11 @@ Raster read_codes(const config::Case& parameters, const std::string& key, const 
     }
     warnings.push_back(fmt::format("note: the codes of {}, which is in {}, were resampled to the points of the DEM",
                                    name_of_file(file), name_of(codes.crs)));
-    return nearest(codes, ground);
+    try {
+      return nearest(codes, ground);
+    } catch (const UserError& error) {
+      throw UserError("{}: {}", file, error.what());
+    }
   });
 }
 

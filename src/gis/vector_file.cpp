@@ -34,7 +34,9 @@ bool is_of_kind(OGRwkbGeometryType type, Kind kind) {
   constexpr OGRwkbGeometryType one[] = {wkbCurvePolygon, wkbCurve, wkbPoint};
   constexpr OGRwkbGeometryType several[] = {wkbMultiSurface, wkbMultiCurve, wkbMultiPoint};
   const auto k = static_cast<std::size_t>(kind);
-  return OGR_GT_IsSubClassOf(type, one[k]) != 0 || OGR_GT_IsSubClassOf(type, several[k]) != 0;
+  const OGRwkbGeometryType flat = wkbFlatten(type);
+  return flat != wkbTriangle && flat != wkbCurve && flat != wkbSurface &&  // not read
+         (OGR_GT_IsSubClassOf(flat, one[k]) != 0 || OGR_GT_IsSubClassOf(flat, several[k]) != 0);
 }
 
 // True for a Shapefile without a .cpg file whose .dbf file states the code page "ANSI", which means little, or none.

@@ -37,9 +37,10 @@ constexpr std::string_view figures_of_a_run =
     "cross_sections impact_maps probes motion velocity plastic_strain temperature pore_pressure force force_record "
     "band base_along energy water entrainment";
 
-// `names`: separated by blanks.
+// `names`: separated by blanks, which no name has.
 bool is_among(const std::string& name, std::string_view names) {
-  return !name.empty() && fmt::format(" {} ", names).find(fmt::format(" {} ", name)) != std::string::npos;
+  return !name.empty() && name.find(' ') == std::string::npos &&
+         fmt::format(" {} ", names).find(fmt::format(" {} ", name)) != std::string::npos;
 }
 
 // Files that a resume kept under another name because of damage (name_for_damaged): history.damaged.csv,

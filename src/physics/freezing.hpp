@@ -52,8 +52,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, double exponent) {
 }
 
 struct PowerLawCurve {
-  double reference_temperature;          // Tref [C]
-  double exponent;                       // m
+  double reference_temperature = 0;      // Tref [C]
+  double exponent = 1;                   // m
   int whole = whole_exponent(exponent);  // derived from m
 
   template <class Value>
@@ -77,8 +77,8 @@ struct PowerLawCurve {
 };
 
 struct LinearCurve {
-  double reference_temperature;  // Tref [C]
-  double slope;                  // m [1/K]
+  double reference_temperature = 0;  // Tref [C]
+  double slope = 1;                  // m [1/K]
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {

@@ -1,5 +1,5 @@
 // All input files of a case, which a run copies.
-// + Protection of inputs against being overwritten by a command. All functions throw UserError.
+// Protection of inputs against being overwritten by a command. All functions throw UserError.
 #pragma once
 
 #include <filesystem>

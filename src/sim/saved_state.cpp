@@ -8,12 +8,13 @@ namespace thawslide::sim {
 
 template <int Dim>
 std::vector<double> Simulation<Dim>::scalars() const {
+  const auto* columns = band_columns();
   std::vector<double> numbers{clock_.time,
                               clock_.last_step,
                               static_cast<double>(clock_.step_number),
                               static_cast<double>(slide_->next_id),
                               static_cast<double>(slide_->split_count),
-                              base_.columns ? base_.columns->time_since_step() : 0.0,
+                              columns != nullptr ? columns->time_since_step() : 0.0,
                               clock_.fixed.step,
                               clock_.fixed.from_time,
                               static_cast<double>(clock_.fixed.from_number)};

@@ -150,13 +150,13 @@ class Simulation {
   }
   [[nodiscard]] const Budget<Dim>& budget() const { return budget_; }
   [[nodiscard]] const terrain::ContactWork<Dim>& contact() const { return sums_.contact; }
-  // Null unless the band consists of columns.
+  // Null unless the band consists of columns. Copies all segments from a device.
   [[nodiscard]] const band::BaseColumns<Dim>* band_columns() const {
     solver().copy_columns_back();
     return base_.columns.get();
   }
   // Of a step on the CPU; empty without band columns.
-  [[nodiscard]] std::vector<band::SegmentBelow> segments_below() const requires(Dim == 3) {
+  [[nodiscard]] std::vector<band::SegmentBelow> segments_below() const {
     return base_.columns ? base_.columns->summaries() : std::vector<band::SegmentBelow>();
   }
   [[nodiscard]] bool has_band_columns() const { return base_.columns != nullptr; }

@@ -134,9 +134,9 @@ def test_volume_size_and_thickness_include_the_relative_width(make_run: MakeRun)
 
 def names_in(list_name: str) -> set[str]:
     text = (ROOT / "src" / "io" / "run_folder.cpp").read_text()
-    found = re.search(rf"\b{list_name}\[\] = {{(.*?)}};", text, re.DOTALL)
+    found = re.search(rf"\b{list_name} =(.*?);", text, re.DOTALL)
     assert found
-    return set(re.findall(r'"(\w+)"', found[1]))
+    return set("".join(re.findall(r'"([^"]*)"', found[1])).split())
 
 
 def test_simulator_has_all_names_of_figures_and_maps() -> None:

@@ -65,7 +65,7 @@ class Solver {
   virtual void sync_to_host() const = 0;
   // Updates the basal segments in host memory.
   virtual void copy_columns_back() const = 0;
-  // The same; the next step begins with the particles in host memory.
+  // Updates particles, grid and segments in host memory; the next step begins with them.
   virtual void release() = 0;
 };
 

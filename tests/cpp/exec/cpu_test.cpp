@@ -108,7 +108,7 @@ TEST(Selection, KeepsMarkedItemsInOrderAndAGrownArrayItsContents) {
       expected.push_back(k);
     }
   }
-  selection.keep(items, kept);
+  selection.keep(selection.count(), items, kept);
   EXPECT_EQ(kept.get(), expected);
   static_cast<void>(selection.marks(0));
   EXPECT_EQ(selection.count(), 0u);

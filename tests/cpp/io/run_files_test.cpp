@@ -59,9 +59,15 @@ TEST_F(RunFiles, FilesOfOthersAreKept) {
       "thesis/maps/max_speed.tif";
   put_run_json();
   put_all(foreign);
+  // two names of a run, but one file of somebody else
+  const std::vector<std::string> with_blanks{"figures/energy water.png", "report.html comparison.html"};
+  for (const std::string& file : with_blanks) {
+    put(run() / file, "mine");
+  }
   put_all("maps/max_speed.tif snapshots/000000.vtkhdf history.csv");
   make_run_folder(run(), true);
   std::vector<std::string> expected = parted(foreign);
+  expected.insert(expected.end(), with_blanks.begin(), with_blanks.end());
   expected.insert(expected.end(), {"figures", "inputs", "maps", "run.lock", "snapshots", "thesis", "thesis/maps"});
   std::sort(expected.begin(), expected.end());
   EXPECT_EQ(left(), expected);
