@@ -78,6 +78,7 @@ def test_dems_elsewhere_in_another_system_and_for_both_placements_are_refused(ru
     write_map(dem, ground(X, Y), crs="EPSG:31254")
     with pytest.raises(ReportError, match="another coordinate reference system than the run"):
         terrain_after(run, dem)
+    write_map(dem, ground(X, Y))
     with pytest.raises(ReportError, match="Omit --dem to use the terrain of the run"):
         terrain_after(with_placement(run, "cut", "on_top"), dem)
 
