@@ -31,7 +31,7 @@ def cone(folder: Path, hole: float = 0.0, crs: str | None = "EPSG:31287") -> Pat
     return folder / "cone.tif"
 
 
-def test_area_of_a_cone_is_that_of_its_section_with_holes_as_rings(tmp_path: Path) -> None:
+def test_areas_beyond_a_threshold_have_holes_as_rings_and_no_zero_around_times(tmp_path: Path) -> None:
     half, quarter = areas_beyond(read_map(cone(tmp_path)), [4.0, 6.0])
     assert half.size == pytest.approx(np.pi * 50.0**2, rel=0.01)
     assert quarter.size == pytest.approx(np.pi * 25.0**2, rel=0.04)
@@ -42,9 +42,6 @@ def test_area_of_a_cone_is_that_of_its_section_with_holes_as_rings(tmp_path: Pat
     ((outline, hole),) = area.polygons
     assert area.size == pytest.approx(np.pi * (75.0**2 - 30.0**2), rel=0.02)
     assert np.hypot(*(outline - MIDDLE).T).min() > np.hypot(*(hole - MIDDLE).T).max()
-
-
-def test_area_reached_before_a_time_has_no_zero_around_it(tmp_path: Path) -> None:
     x = WEST + CELL * (np.arange(20) + 0.5)
     times = np.tile((x - x[0]) / 10.0, (10, 1))  # 1 s per cell
     times[:2] = np.nan

@@ -43,7 +43,7 @@ def test_numbers_of_a_known_deposit_are_exact() -> None:
     assert {name: getattr(found, name) for name in expected} == pytest.approx(expected)
 
 
-def test_difference_of_deposits_and_spread_are_exact() -> None:
+def test_difference_and_spread_are_exact_and_orders_need_monotonic_values() -> None:
     empty = block(0, 0, 0.0)
     one, other = (frank.Deposit(block(first, first + 10, 4.0), empty, empty) for first in (10, 15))
     found = frank.difference(one, other)
@@ -52,6 +52,7 @@ def test_difference_of_deposits_and_spread_are_exact() -> None:
     same = frank.difference(one, one)
     assert (same.overlap, same.moved, same.thickness) == (1.0, 0.0, 0.0)
     assert refinement.spread([90.0, 100.0, 110.0]) == pytest.approx(0.2)
+    assert refinement_page.order_and_limit([1.0, 2.0, 1.5], 1) == ("not monotonic", "")
 
 
 def test_maps_are_on_the_grid_of_the_file_of_the_other_code(tmp_path: Path) -> None:
@@ -124,7 +125,3 @@ def test_limits_of_deposits_are_of_first_order(cells: tuple[float, ...]) -> None
 def test_orders_and_limits_are_those_of_the_cells_that_halve(order: float) -> None:
     values = [100.0 - 30.0 * (cell / 40.0) ** order for cell in refinement_page.HALVING]
     assert refinement_page.order_and_limit(values, 0) == (f"{order:.1f}", "100")
-
-
-def test_value_without_monotonic_convergence_has_no_order() -> None:
-    assert refinement_page.order_and_limit([1.0, 2.0, 1.5], 1) == ("not monotonic", "")

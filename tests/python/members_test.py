@@ -174,7 +174,7 @@ def test_rows_scale_step_and_viscosity_and_shift_the_domain() -> None:
     assert shifted["quarter-shift"] == ("grid.min=[-202.5,197.5]", "grid.max=[13997.5,2397.5]")
 
 
-def test_table_of_cells_has_the_difference_of_the_finer_two() -> None:
+def test_tables_have_differences_of_the_finer_two_and_from_the_case() -> None:
     found = {
         row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0, dilation=15.0)
         for row in numerics.cell_rows()
@@ -185,9 +185,6 @@ def test_table_of_cells_has_the_difference_of_the_finer_two() -> None:
     assert lines[2] == "| 0.21 | mean displacement [km] | 4.00 | 4.00 | 5.00 | 25.0 % |"
     assert lines[5] == "| 0.21 | growth of the volume [%] | 15.0 | 15.0 | 15.0 | |"
     assert lines[10] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
-
-
-def test_table_of_numerics_has_differences_from_the_case() -> None:
     base = Observed(peak=80.0, displacement=5.0, runout=9.0)
     rows = numerics.numerics_rows()[:2]
     found = {

@@ -344,7 +344,9 @@ def test_refusals(case: str, folder: Path, monkeypatch: pytest.MonkeyPatch, caps
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
 
 
-def test_volume_that_joins_two_parts_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_volumes_that_join_parts_or_are_below_that_of_bumps_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     def terraces(x: object, _y: object) -> object:
         return 1000.0 + 100.0 * ((x > -200.0) & (x < 200.0) & (abs(_y) < 300.0)) - 50.0 * (abs(x) < 20.0)  # type: ignore
 
@@ -353,9 +355,6 @@ def test_volume_that_joins_two_parts_is_refused(tmp_path: Path, capsys: pytest.C
     assert main([str(dem), "--plane", surface, "--volume", "6e6", "--output", str(tmp_path / "a.tif")]) == 2
     message = capsys.readouterr().err
     assert "--volume: 6,000,000 m3 cannot be reached (at one depth, the volume jumps from" in message
-
-
-def test_volume_below_that_of_the_bumps_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     dem = write_dem(tmp_path / "dem.tif", lambda x, y: slope(x, y) - (x**2 + y**2) / 1000.0)
     within = write_outline(tmp_path / "in.geojson", INSIDE)
     words = [str(dem), "--slbl", "--within", str(within), "--output", str(tmp_path / "a.tif")]
