@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, CommandLine
 
 import thawslide
 from thawslide.maps import Map
@@ -49,24 +49,22 @@ def test_examples_of_docstrings(module: str, tmp_path: Path, monkeypatch: pytest
     assert done.failed == 0 and (done.attempted > 0) == (">>>" in inspect.getsource(loaded))
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_functions_have_all_sections(name: str) -> None:
-    text = inspect.getdoc(FUNCTIONS[name]) or ""
-    assert [each for each in SECTIONS if f"\n{each}\n{'-' * len(each)}\n" not in text] == []
-
-
 @pytest.mark.parametrize("name", FUNCTIONS | METHODS)
-def test_every_parameter_is_described(name: str) -> None:
+def test_functions_have_all_sections_and_every_parameter_is_described(name: str) -> None:
     function = (FUNCTIONS | METHODS)[name]
     text = function.__doc__ or PUBLIC[name.partition(".")[0]].__doc__  # a constructor without text: that of the class
-    section = inspect.cleandoc(text).partition("Parameters\n----------\n")[2].split("\n\n")[0]
+    text = inspect.cleandoc(text)
+    missing = [each for each in SECTIONS if f"\n{each}\n{'-' * len(each)}\n" not in text]
+    assert missing == [] or name not in FUNCTIONS
+    section = text.partition("Parameters\n----------\n")[2].split("\n\n")[0]
     described = {word.lstrip("*") for line in section.splitlines() if not line.startswith(" ")
                  for word in line.split(" : ")[0].split(", ")}  # fmt: skip
     assert described == set(inspect.signature(function).parameters) - {"self", "cls"}
 
 
-def test_only_public_names_are_listed() -> None:
+def test_public_names_and_the_version_of_the_program(command_line: CommandLine) -> None:
     assert dir(thawslide) == sorted(thawslide.__all__)
+    assert command_line("version").stdout.split()[1] == thawslide.__version__
 
 
 SCRIPT = """
@@ -116,7 +114,8 @@ def code_of(notebook: Path) -> list[dict[str, Any]]:
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_runs(notebook: Path, tmp_path: Path) -> None:
+def test_a_notebook_runs_has_outputs_and_is_small(notebook: Path, tmp_path: Path) -> None:
+    assert any(cell["outputs"] for cell in code_of(notebook)) and notebook.stat().st_size < 200_000
     copy = tmp_path / "docs" / "notebooks" / notebook.name
     copy.parent.mkdir(parents=True)
     shutil.copy(notebook, copy)
@@ -128,11 +127,6 @@ def test_a_notebook_runs(notebook: Path, tmp_path: Path) -> None:
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     assert [len(cell["outputs"]) for cell in code_of(copy)] == [len(cell["outputs"]) for cell in code_of(notebook)]
-
-
-@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_has_outputs_and_is_small(notebook: Path) -> None:
-    assert any(cell["outputs"] for cell in code_of(notebook)) and notebook.stat().st_size < 200_000
 
 
 def test_the_friction_of_a_run_changes_halfway_in_under_20_lines() -> None:

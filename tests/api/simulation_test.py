@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from conftest import CommandLine, assert_identical, history_of, silent
 
-import thawslide
 from thawslide import Case, Run, RunError, Simulation, UserError
 
 
@@ -207,7 +206,3 @@ def test_other_threads_work_while_a_simulation_steps(slope: Path) -> None:
     stop.set()
     worker.join()
     assert during > 1000
-
-
-def test_the_version_is_that_of_the_program(command_line: CommandLine) -> None:
-    assert command_line("version").stdout.split()[1] == thawslide.__version__
