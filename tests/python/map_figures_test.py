@@ -193,7 +193,7 @@ def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
 
 
-def test_missing_maps_heat_and_snapshots_are_errors(map_run: Path, fails: Fails) -> None:
+def test_missing_maps_are_errors(map_run: Path, fails: Fails) -> None:
     (map_run / "maps" / "results.gpkg").unlink()
     with pytest.raises(NotInRunError, match=r"results\.gpkg: no flow path\. Specify maps\.path"):
         plotted("cross_sections", map_run)
@@ -202,6 +202,9 @@ def test_missing_maps_heat_and_snapshots_are_errors(map_run: Path, fails: Fails)
         list(Animation(Run(map_run)).frames(40))
     (map_run / "maps" / "terrain.tif").unlink()
     fails([str(map_run), "--only", "slide_speed"], "terrain.tif: no such map. Repeat the run.")
+
+
+def test_maps_require_snapshots_and_heat(map_run: Path) -> None:
     edit(map_run / "case.toml", "enabled = true", "enabled = false")
     with pytest.raises(NotInRunError, match=r"heat\.enabled: temperatures are constant"):
         plotted("slide_temperature", map_run)
