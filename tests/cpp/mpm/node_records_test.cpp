@@ -187,7 +187,7 @@ TEST(SparseRecords, StoreRequestedBlocksAndReadZerosElsewhere) {
   for (std::size_t block = 0; block < 5; ++block) {
     ASSERT_EQ(records.contains(block), is_kept(block));
     for (std::size_t k = 0; k < Records::nodes; ++k) {
-      const Records::Record stored{static_cast<double>(100 * block + k), 1.0, 2.0, 0.0};
+      const auto stored = Records::Record{static_cast<double>(100 * block + k), 1.0, 2.0, 0.0};
       EXPECT_EQ(records(block, k), is_kept(block) ? stored : Records::Record{}) << block << ", " << k;
       EXPECT_EQ(records(NodeAt{block, k})[1], is_kept(block) ? 1.0 : 0.0);
     }
