@@ -55,6 +55,27 @@ TEST(BodyFigures, AreThoseOfTheBody) {
   EXPECT_TRUE(body_warnings(case_from_text(step), bodies).empty());
 }
 
+// A heap of 5 m x 8 m with a layer of 25 m x 1 m in front of it, so soft that its weight compresses it.
+TEST(BodyFigures, TheMedianIsByAreaAndTriggersAWarning) {
+  const Sets sets =
+      "grid.max=[50,20]; material.rock.youngs_modulus=2e6; "
+      "body.block.vertices=[[5.0,1.0],[35.0,1.0],[35.0,2.0],[10.0,2.0],[10.0,9.0],[5.0,9.0]]";
+  const std::vector<BodyFigures> bodies = figures_of(step, sets);
+  EXPECT_NEAR(bodies.front().mean_thickness, 65.0 / 30.0, 1e-12);
+  EXPECT_NEAR(bodies.front().median_thickness, 1.0, 1e-12) << "not the 8 m of most of its volume";
+  EXPECT_NEAR(bodies.front().particles_across, 2.0, 1e-12);
+  EXPECT_NEAR(bodies.front().max_particles_across, 16.0, 1e-12);
+  const auto warnings = body_warnings(case_from_text(step, sets), bodies);
+  ASSERT_EQ(warnings.size(), 2U);
+  expect_in(warnings[0],
+            "the weight of body block, 160,000 Pa where it is thickest, compresses it by 8 % there. "
+            "Give it 4e+06 Pa or more.");
+  expect_in(warnings[1],
+            "grid.cell: across the median thickness of body block, 1 m, there are too few particles to "
+            "resolve shear and thinning (found 2; needed 4). Set grid.cell to 0.5 m, at about 8 times "
+            "the run time.");
+}
+
 // Material of this strength on a base of 30 degrees, whose friction is 0.577 of the load.
 const Sets strong = "material.rock.law=mohr_coulomb; material.rock.cohesion=1e5; material.rock.residual_cohesion=0";
 

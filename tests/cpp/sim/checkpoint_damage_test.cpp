@@ -5,6 +5,7 @@
 #include <fstream>
 #include <random>
 
+#include "../support/messages.hpp"
 #include "../support/slide_in_space.hpp"
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
@@ -94,6 +95,21 @@ TEST_F(CheckpointDamage, OfATruncatedFileIsDetected) {
     fs::resize_file(last_, left);
     EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_previous_);
     EXPECT_EQ(io::newest_checkpoint(folder_).warning, damage_words(last_, left));
+  }
+}
+
+TEST_F(CheckpointDamage, OfBothGenerationsIsRefused) {
+  std::mt19937 random(2);
+  for (int k = 0; k < 2000; ++k) {
+    const std::size_t in_last = random() % bytes_of_last_.size(), in_previous = random() % bytes_of_previous_.size();
+    const char before = put(last_, in_last, another(bytes_of_last_[in_last], random));
+    const char before_that = put(previous_, in_previous, another(bytes_of_previous_[in_previous], random));
+    ASSERT_EQ(testing_support::error_of([&] { static_cast<void>(io::newest_checkpoint(folder_)); }),
+              damage_words(last_, bytes_of_last_.size()) + "; " + damage_words(previous_, bytes_of_previous_.size()) +
+                  ". Use another copy, or run the case from its start.")
+        << k;
+    put(last_, in_last, before);
+    put(previous_, in_previous, before_that);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "../support/base_cases.hpp"
 #include "../support/slide_on_dem.hpp"
+#include "sim/block/block.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -147,6 +148,60 @@ Variant sliding(bool is_mirrored, bool by_tilt, double velocity) {
                           "body.block.velocity=[{}, 0.0]",
                           by_tilt ? 30.0 * sign : 0.0, length, by_tilt ? "flat" : "plane", at_zero,
                           by_tilt ? 0.0 : 30.0 * sign, vertices, sign * velocity)};
+}
+
+struct Rows {
+  HistoryRow first, last;
+};
+
+Rows rows_of(const Variant& variant) {
+  const config::Case parameters = paper_case(variant);
+  Simulation<2> simulation(parameters);
+  Rows rows{history_row(simulation), {}};
+  run_until(simulation, parameters.time.end);
+  rows.last = history_row(simulation);
+  return rows;
+}
+
+void expect_mirrored(const HistoryRow& row, const HistoryRow& mirrored) {
+  ASSERT_EQ(row.size(), mirrored.size());
+  for (const char* name :
+       {"mean_velocity_m_s", "velocity_m_s", "displacement_m", "mean_displacement_m", "runout_m", "travel_distance_m",
+        "drop_height_m", "sliding_strength_Pa", "driving_traction_Pa", "friction_work_J", "friction_work_J_m2"}) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (row[k].first == name) {
+        EXPECT_NEAR(mirrored[k].second, row[k].second, 1e-6 * (1e-3 + std::abs(row[k].second))) << name;
+      }
+    }
+  }
+  EXPECT_NEAR(value_of(mirrored, "front_position_m"), length - value_of(row, "front_position_m"), 1e-6);
+}
+
+TEST(Direction, MirroredSlideHasTheSameRunout) {
+  for (const bool by_tilt : {false, true}) {
+    for (const double velocity : {0.0, 4.0}) {
+      SCOPED_TRACE(fmt::format("tilt {}, velocity {}", by_tilt, velocity));
+      const Rows right = rows_of(sliding(false, by_tilt, velocity)), left = rows_of(sliding(true, by_tilt, velocity));
+      EXPECT_GT(value_of(right.last, "runout_m"), value_of(right.first, "runout_m") + 4.0);
+      expect_mirrored(right.first, left.first);
+      expect_mirrored(right.last, left.last);
+    }
+  }
+}
+
+TEST(Direction, MirroredBlockHasTheSameRunout) {
+  for (const bool by_tilt : {false, true}) {
+    for (const double velocity : {0.0, 4.0}) {
+      SCOPED_TRACE(fmt::format("tilt {}, velocity {}", by_tilt, velocity));
+      const auto right = run_block(paper_case(sliding(false, by_tilt, velocity)));
+      const auto left = run_block(paper_case(sliding(true, by_tilt, velocity)));
+      ASSERT_EQ(right.size(), left.size());
+      EXPECT_GT(value_of(right.front(), "driving_traction_Pa"), 0.0);
+      EXPECT_GT(value_of(right.back(), "displacement_m"), 4.0);
+      expect_mirrored(right.front(), left.front());
+      expect_mirrored(right.back(), left.back());
+    }
+  }
 }
 
 // With a velocity of 1 m/s uphill it returns after 0.6 s; with v^2 = 484 m2/s2 it moves by more than half of its 40 m.

@@ -135,6 +135,19 @@ TEST(PathSection, ObliquePointsGiveTheMotionOfThePlane) {
   }
 }
 
+// On the points of the DEM next to the upper end of the release, whose corners lie half a cell higher.
+TEST(PathSection, HeightBeginsAtTheTopOfTheRelease) {
+  const double fall = std::tan(slope * degree), first = 102.5;
+  for (const double azimuth : {0.0, 90.0, 180.0}) {
+    SCOPED_TRACE(fmt::format("azimuth {}", azimuth));
+    for (const HistoryRow& row : run_along_path(case_on_dem(flat_case(slope), azimuth, 0.0))) {
+      const double front = value_of(row, "front_position_m");
+      EXPECT_NEAR(value_of(row, "travel_distance_m"), front - 100.0, 1e-6);
+      EXPECT_NEAR(value_of(row, "drop_height_m"), thickness + fall * (front - first), 1e-6);
+    }
+  }
+}
+
 // If the path turns away from the line of fall, its slope is that of the plane along the path.
 TEST(PathSection, BentPathGivesTheMotionOnTheBentProfile) {
   const double slope_beyond = std::atan(std::tan(slope * degree) * std::cos(turn * degree)) / degree;

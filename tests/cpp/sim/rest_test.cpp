@@ -8,7 +8,9 @@
 #include "../support/messages.hpp"
 #include "base/parallel.hpp"
 #include "config/scheduled_events.hpp"
+#include "io/checkpoint.hpp"
 #include "sim/records/end_state.hpp"
+#include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -125,6 +127,37 @@ TEST(Rest, AnEscapedParticleDoesNotPreventRest) {
     fastest = std::max(fastest, std::abs(simulation.particles().velocity(p, 1)));
   }
   EXPECT_GT(fastest, 5.0) << "the stray one still flies";
+}
+
+TEST(Rest, ResumedDuringTheRestTimeEndsAtTheSameTime) {
+  Simulation<2> whole(paper_case(block)), parted(paper_case(block));
+  const double end = end_of(whole);
+  EXPECT_LT(end, 2.0);
+  while (parted.time() < end - 0.2) {
+    parted.step(parted.next_step(5.0));
+  }
+  const auto folder = folder_of_this_test();
+  io::write_checkpoint<2>(folder, parted.particles(), parted.particles_at_start(), parted.scalars());
+  Simulation<2> resumed(paper_case(block));
+  std::vector<double> scalars;
+  io::read_checkpoint<2>(io::newest_checkpoint(folder), resumed.particles(), scalars);
+  resumed.restore(scalars);
+  EXPECT_EQ(resumed.scalars(), parted.scalars());
+  EXPECT_EQ(end_of(resumed), end);
+}
+
+// Cohesion holds a block on 25 degrees until 3 s; it slides by itself afterwards.
+TEST(Rest, BeginsAfterTheLastScheduledEvent) {
+  const Sets held =
+      "case.gravity_tilt=25; body.block.velocity=[0,0]; basal.cohesion=1e6; basal.cohesion_law='time'; "
+      "basal.cohesion_loss_time=3; heat.enabled=false; pressure.enabled=false";
+  Simulation<2> simulation(paper_case(block + held));
+  EXPECT_EQ(end_of(simulation), 5.0);
+  EXPECT_GT(value_of(history_row(simulation), "mean_velocity_m_s"), 1.0);
+  EXPECT_EQ(
+      simulation.rest_rule(),
+      "for 0.4 s, or 0.25 s from the start, after the last scheduled change at 3 s no more than 0.5 % of the mass "
+      "faster than 0.05 m/s");
 }
 
 // The last entries of a table repeat a value until the end of the run.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "../support/messages.hpp"
 #include "../support/small_terrain.hpp"
 
 namespace thawslide::sim {
@@ -67,6 +68,26 @@ TEST(Section, GroundAndThicknessSumToTheTriangulatedSum) {
   EXPECT_GT(largest, 10.0);
   EXPECT_EQ(between.front(), 0.0);
   EXPECT_EQ(between.back(), 0.0);
+}
+
+std::string error_of(const PathLine& line, double to, const Raster& ground) {
+  const auto stations = stations_along(line, 0.0, line.length(), 1.0);
+  return testing_support::error_of(
+      [&] { require_known(line, stations, ground_along(line, stations, ground), to, ground, "--line: way.gpkg"); });
+}
+
+TEST(Section, ReportsWhereTheGroundEnds) {
+  Raster ground = raster(0.0, 0.0, 2.0, 6, 6, [](double x, double) { return x; });
+  const PathLine line({{1.0, 3.0}, {14.0, 3.0}});
+  EXPECT_EQ(error_of(line, 13.0, ground),
+            "--line: way.gpkg: the line is outside the DEM 10 m from its beginning, at x = 11, y = 3; its "
+            "points reach from x = 0 to 10 and from y = 0 to 10. Draw the line within them, or take a larger DEM.");
+  EXPECT_EQ(error_of(line, 9.0, ground), "no error") << "only as far as it must be known";
+  ground.values[ground.index(3, 2)] = std::nan("");
+  EXPECT_EQ(error_of(line, 13.0, ground),
+            "--line: way.gpkg: the line crosses a place without data 3 m from its beginning, at x = 4, y = 3; needed: "
+            "an elevation all along it. Fill the DEM there (gdal_fillnodata.py), or draw the line around "
+            "it.");
 }
 
 }  // namespace

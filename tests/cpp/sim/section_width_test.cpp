@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "../support/column_slab.hpp"
+#include "../support/fields.hpp"
+#include "../support/messages.hpp"
+#include "sim/block/block.hpp"
 #include "sim/checks/body_figures.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
@@ -28,6 +31,31 @@ TEST(SectionWidth, IsLinearBetweenPlacesAndConstantBeyond) {
   }
   EXPECT_FALSE(mpm::SectionWidth().varies());
   EXPECT_EQ(mpm::SectionWidth().at(7.0), 1.0);
+}
+
+// A uniform table uses every step of a varying one, with factors of 1.
+void expect_bits_of_one_width(const Sets& sets) {
+  const auto run = [&](const char* width) {
+    auto simulation = std::make_unique<Simulation<2>>(case_from_text(column_slab(), sets + width));
+    run_until(*simulation, 1.0);
+    return simulation;
+  };
+  const auto one = run("case.width=617.0"),
+             table = run("case.width={ x = [20.0, 50.0, 90.0], value = [617.0, 617.0, 617.0] }");
+  EXPECT_FALSE(one->model().motion.width.varies());
+  EXPECT_TRUE(table->model().motion.width.varies());
+  expect_the_same_state(state_of(*one), state_of(*table), "a constant table");
+  const HistoryRow row = history_row(*one), of_table = history_row(*table);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    EXPECT_TRUE(row[k].second == of_table[k].second || std::isnan(row[k].second)) << row[k].first;
+  }
+  EXPECT_GT(std::abs(value_of(row, "friction_work_J")), 1e6) << "it slides";
+}
+
+TEST(SectionWidth, OfAUniformTableIsBitwiseIdenticalToANumber) {
+  expect_bits_of_one_width({});
+  expect_bits_of_one_width("band.model=scaled; pressure.frozen_rows=vented");
+  expect_bits_of_one_width("mechanics.transfer=apic");
 }
 
 // Elastic material under its weight between sides of the domain, in a section that widens, narrows and widens again.
@@ -187,6 +215,12 @@ TEST(SectionWidth, ConservesHeatAndWaterOfBandColumns) {
   const double covered = simulation.contact().area;
   EXPECT_NEAR(value_of(history_row(simulation), "base_area_m2"), 10.0 * covered, 0.1 * 10.0 * covered);
   EXPECT_GT(value_of(history_row(simulation), "front_position_m"), 320.0) << "it has passed the widest place";
+}
+
+TEST(SectionWidth, IsRefusedByTheBlock) {
+  const config::Case parameters = case_from_text(column_slab(), {"case.width={ x = [0.0, 9.0], value = [1.0, 2.0] }"});
+  expect_in(error_of([&] { run_block(parameters); }),
+            "the block model has one width. Give case.width as a number, or use `thawslide run`.");
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Base of a block in a valley: channels with known factors; planes and ridges with a factor of 1. The motion of the
-// block is in tests/cli/block_test.py.
+// Base of a block in a valley: channels with known factors; planes and ridges with a factor of 1.
 #include "sim/checks/valley_factor.hpp"
 
 #include <gtest/gtest.h>
@@ -8,13 +7,15 @@
 #include <cmath>
 
 #include "../support/slide_on_dem.hpp"
+#include "sim/block/block.hpp"
+#include "sim/block/path_section.hpp"
 
 namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
 
-constexpr double degree = 3.14159265358979323846 / 180.0, slope = 35.0, cell = 5.0;
+constexpr double degree = 3.14159265358979323846 / 180.0, slope = 35.0, friction = 15.0, cell = 5.0;
 
 // Slope of the walls of a V-shaped channel with this opening angle normal to its thalweg.
 double side_of(double opening) { return 1.0 / std::tan(0.5 * opening * degree) / std::cos(slope * degree); }
@@ -85,6 +86,32 @@ TEST(ValleyFactor, OfStraightAndObliquePlanesAndOfARidgeIsOne) {
   EXPECT_EQ(factor_in(channel(0.0, [](double y) { return -std::abs(y); }), 0.0, section, cell), 1.0);
   const Height unknown = [](double x, double) { return x < 290.0 ? no_data : 1.0; };
   EXPECT_EQ(factor_in(unknown, 0.0, section, cell), 1.0);
+}
+
+// A fill of the channel that slides by Coulomb friction: a = g (sin(slope) - k tan(friction) cos(slope)).
+TEST(ValleyFactor, BlockInAVChannelHasTheFrictionOfItsTwoSides) {
+  for (const double opening : {120.0, 90.0, 60.0}) {
+    SCOPED_TRACE(fmt::format("opening {}", opening));
+    const double m = side_of(opening), factor = 1.0 / std::sin(0.5 * opening * degree), depth = 20.0 * m;
+    const Height v = channel(0.0, [m](double across) { return m * std::abs(across); });
+    config::Case parameters = case_on_dem(
+        release_on_dem({2.0, 0.001, cell, {-200.0, -100.0, 0.0}, {300.0, 100.0, 2000.0}}, elastic_rock(0.02), friction),
+        {"time.history_interval=1", "mechanics.slope_shear=false"});
+    config::Site site = site_of(raster_between({-250.0, -150.0}, {350.0, 150.0}, cell, v),
+                                raster_between({-100.0, -20.0}, {0.0, 20.0}, cell, [&](double, double y) {
+                                  return std::max(0.0, depth - m * std::abs(y));
+                                }));
+    site.releases.at("slide").area = 100.0 * 40.0;
+    site.path = {{-150.0, 0.0}, {300.0, 0.0}};
+    const PathSection section = section_along_path(parameters, site);
+    const auto rows = run_block(section.parameters, section.site, section.valley_factor);
+    const double expected =
+        9.81 * (std::sin(slope * degree) - factor * std::tan(friction * degree) * std::cos(slope * degree));
+    EXPECT_NEAR(value_of(rows.back(), "velocity_m_s") / value_of(rows.back(), "time_s"), expected, 1e-6 * expected);
+    EXPECT_NEAR(value_of(rows.back(), "valley_factor"), factor, 1e-6);
+    EXPECT_NEAR(value_of(rows.front(), "sliding_strength_Pa") / value_of(rows.front(), "driving_traction_Pa"),
+                factor * std::tan(friction * degree) / std::tan(slope * degree), 1e-6);
+  }
 }
 
 }  // namespace
