@@ -129,7 +129,7 @@ MemoryNeed memory_need(const config::Case& parameters, const config::Site& site,
   MemoryNeed need = memory_of_particles<Dim>(bodies.particles * splitting_factor(parameters));
   if (config::has_band_columns(parameters)) {
     const double segments = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
-    need.columns = 2.0 * segments * sizeof(band::BasalSegment<Dim>);  // with a copy while some are removed
+    need.columns = segments * sizeof(band::BasalSegment<Dim>);
   }
   if (parameters.bed.law != config::BedLaw::none) {
     need.bed = bytes_of_bed<Dim>(parameters.grid);
