@@ -115,7 +115,7 @@ def workers_of(driver: int) -> list[int]:
 @pytest.mark.parametrize("delay", [0.0, 1.0, 4.0])
 def test_ctrl_c_prints_one_line_and_the_sweep_continues(slope: Path, tmp_path: Path, delay: float) -> None:
     case, folder = slope.with_name("slow.toml"), SweepFolder(tmp_path / "sweep")
-    case.write_text(SLOW.format(end=3.0, step=0.0005))
+    case.write_text(SLOW.format(end=3.0, step=0.00005))
     words = [str(case), "--vary", "basal.friction_angle=20,25,30,35", "--workers", "2", "--quiet"]
     command = [sys.executable, "-m", "thawslide.sweeps.command", *words, "--output", str(folder.path)]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
