@@ -50,24 +50,8 @@ struct GroundBelow {
   Vector<double, Dim - 1> slope, linear_slope;
 };
 
-// Heights of the three columns along each axis from the lowest one, x fastest.
-template <int Dim, class HeightOf>
-THAWSLIDE_HD void heights_around(const typename ColumnChunks<Dim>::Column& lowest, const HeightOf& height,
-                                 double* heights) {
-  if constexpr (requires { height.around(lowest, heights); }) {
-    height.around(lowest, heights);
-  } else if constexpr (Dim == 2) {
-    for (int i = 0; i < 3; ++i) {
-      heights[i] = height({lowest[0] + i});
-    }
-  } else {
-    for (int k = 0; k < 9; ++k) {
-      heights[k] = height({lowest[0] + k % 3, lowest[1] + k / 3});
-    }
-  }
-}
-
-// half: half size of a particle, in cells. height(column): of a column of nodes [m].
+// half: half size of a particle, in cells. height(column): of a column of nodes [m]; height.around(lowest, heights),
+// if it exists, copies those of the three columns along each axis from the lowest one, x fastest.
 template <int Dim, class HeightOf>
 THAWSLIDE_HD GroundBelow<Dim> ground_below(const Vector<double, Dim - 1>& point, const mpm::HalfSize<double>& half,
                                            double cell, const ColumnChunks<Dim>& columns, const HeightOf& height) {
@@ -87,23 +71,35 @@ THAWSLIDE_HD GroundBelow<Dim> ground_below(const Vector<double, Dim - 1>& point,
   found.height = 0.0;
   found.slope.setZero();
   found.linear_slope.setZero();
-  double b[Dim == 2 ? 3 : 9];
-  heights_around<Dim>(lowest, height, b);
+  [[maybe_unused]] double known[Dim == 2 ? 3 : 9];
+  if constexpr (requires { height.around(lowest, known); }) {
+    height.around(lowest, known);
+  }
+  const auto of_column = [&](int k) {
+    if constexpr (requires { height.around(lowest, known); }) {
+      return known[k];
+    } else if constexpr (Dim == 2) {
+      return height({lowest[0] + k});
+    } else {
+      return height({lowest[0] + k % 3, lowest[1] + k / 3});
+    }
+  };
   if constexpr (Dim == 2) {
     for (int i = 0; i < 3; ++i) {
-      found.height += axis[0].weight[i] * b[i];
-      found.slope[0] += axis[0].slope[i] * b[i];
-      found.linear_slope[0] += linear[0].slope[i] * b[i];
+      const double b = of_column(i);
+      found.height += axis[0].weight[i] * b;
+      found.slope[0] += axis[0].slope[i] * b;
+      found.linear_slope[0] += linear[0].slope[i] * b;
     }
   } else {
     for (int j = 0; j < 3; ++j) {
       double along = 0.0, slope = 0.0, linear_along = 0.0, linear_slope = 0.0;
       for (int i = 0; i < 3; ++i) {
-        const double of_column = b[3 * j + i];
-        along += axis[0].weight[i] * of_column;
-        slope += axis[0].slope[i] * of_column;
-        linear_along += linear[0].weight[i] * of_column;
-        linear_slope += linear[0].slope[i] * of_column;
+        const double b = of_column(3 * j + i);
+        along += axis[0].weight[i] * b;
+        slope += axis[0].slope[i] * b;
+        linear_along += linear[0].weight[i] * b;
+        linear_slope += linear[0].slope[i] * b;
       }
       found.height += axis[1].weight[j] * along;
       found.slope[0] += axis[1].weight[j] * slope;

@@ -310,7 +310,14 @@ void FollowingGround<Dim>::locate(mpm::Particles<Dim>& particles) const {
       if (!is_known || column != lowest) {
         lowest = column;
         is_known = true;
-        heights_around<Dim>(lowest, HeightOfColumn{ground}, heights);
+        for (int k = 0; k < (Dim == 2 ? 3 : 9); ++k) {
+          Column about = lowest;
+          about[0] += k % 3;
+          if constexpr (Dim == 3) {
+            about[1] += k / 3;
+          }
+          heights[k] = ground->column_height(about);
+        }
       }
       std::copy(std::begin(heights), std::end(heights), found);
     }
