@@ -26,7 +26,6 @@
 #include "config/read_case.hpp"
 #include "config/resolution.hpp"
 #include "config/sweep_proposal.hpp"
-#include "gis/dem.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
@@ -87,8 +86,7 @@ double filter_of(config::Case trial, const config::Proposal& proposal) {
   trial.grid.max = proposal.max;
   trial.grid.cell = config::quick_cell(proposal);
   trial.terrain.smooth.is_auto = true;
-  std::vector<std::string> known_warnings;
-  return std::max(trial.grid.cell, gis::load_dem(trial, known_warnings).roughness.width);
+  return std::max(trial.grid.cell, reopen_site(trial).roughness->width);
 }
 
 std::string reason_for_cell(const config::Proposal& proposal, const NewOptions& options) {

@@ -7,12 +7,11 @@
 
 namespace thawslide::gis {
 
-void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
+std::string place_of(const config::Case& parameters, const std::string& key) {
   const std::string& location = config::location_of(parameters, key);
   // A command option such as --dem is sufficient; a location in a file and --set need the key.
   const bool is_option = location.rfind("--", 0) == 0 && location.rfind("--set", 0) != 0;
-  throw UserError(is_option ? fmt::format("{}: {}", location, message)
-                            : fmt::format("{}: {}: {}", location, key, message));
+  return is_option ? location : fmt::format("{}: {}", location, key);
 }
 
 void add_warning(const std::string& warning, std::vector<std::string>& warnings) {
@@ -50,25 +49,24 @@ std::string format_range(const Rectangle& rectangle) {
                      coordinate_text(rectangle.max_y));
 }
 
-Rectangle domain_of(const config::Case& parameters) {
-  const auto& [min, max] = std::pair(parameters.grid.min, parameters.grid.max);
-  return {min[0], min[1], max[0], max[1]};
-}
+Rectangle domain_of(const config::Grid& grid) { return {grid.min[0], grid.min[1], grid.max[0], grid.max[1]}; }
 
-Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& warnings) {
-  return with_error_location(parameters, request.key, [&] {
-    const RasterFile file(request.file, request.quantity);
+Raster read_map(const MapRequest& request, std::vector<std::string>& warnings) {
+  return at_place(request.file.place, [&] {
+    const std::string& name = request.file.value;
+    const RasterFile file(name, request.quantity);
     if (!request.heights.empty()) {
-      require_same_heights(request.file, height_system_of(file.layout().crs), request.heights);
+      require_same_heights(name, height_system_of(file.layout().crs), request.heights);
     }
-    const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
+    const LikelySystem system = likely_system(name, file.layout().crs, file.extent(), request.crs);
     add_warning(system.warning, warnings);
     add_warning(file.conversion().warning, warnings);
     const bool same_system = Reprojection(system.wkt, request.crs).changes_nothing();
-    if (same_system && request.area && !request.area->touches(span_of_points(file.layout()))) {
+    const Rectangle span = span_of_points(file.layout());
+    if (same_system && request.area && !request.area->touches(span)) {
       throw UserError(
           "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference system.",
-          request.file, format_range(span_of_points(file.layout())), request.reason, format_range(*request.area));
+          name, format_range(span), request.reason, format_range(*request.area));
     }
     Raster raster = file.read(same_system ? request.area : std::nullopt);
     raster.crs = system.wkt;

@@ -1,5 +1,4 @@
-// Inputs of a case that a key names: errors at the location of the key ("case.toml:12:7: terrain.file: ...", "--dem:
-// ..."), warnings, and rasters other than the DEM.
+// Inputs of a case that a key names: their places in messages, warnings, and rasters other than the DEM.
 #pragma once
 
 #include <optional>
@@ -14,22 +13,27 @@
 
 namespace thawslide::gis {
 
-[[noreturn]] void fail_at(const config::Case& parameters, const std::string& key, const std::string& message);
+// Value of a key, and its place for messages: "case.toml:12:7: terrain.file", or an option such as "--dem".
+template <class T>
+struct Located {
+  T value;
+  std::string place;  // empty: not from a case
+};
 
-// The same with a format of fmt and its values.
-template <class... Values>
-requires(sizeof...(Values) > 0) [[noreturn]] void fail_at(const config::Case& parameters, const std::string& key,
-                                                          fmt::format_string<Values...> form, Values&&... values) {
-  fail_at(parameters, key, fmt::format(form, std::forward<Values>(values)...));
+[[nodiscard]] std::string place_of(const config::Case& parameters, const std::string& key);
+
+template <class T>
+[[nodiscard]] Located<T> located(const config::Case& parameters, const std::string& key, const T& value) {
+  return {value, place_of(parameters, key)};
 }
 
-// Adds the location of the key that named a file to errors of `work`.
+// Adds the place of the key that named a file to errors of `work`.
 template <class Work>
-auto with_error_location(const config::Case& parameters, const std::string& key, const Work& work) {
+auto at_place(const std::string& place, const Work& work) {
   try {
     return work();
   } catch (const UserError& error) {
-    fail_at(parameters, key, error.what());
+    throw UserError("{}{}{}", place, place.empty() ? "" : ": ", error.what());
   }
 }
 
@@ -47,11 +51,10 @@ void add_warning(const std::string& warning, std::vector<std::string>& warnings)
 [[nodiscard]] std::string format_range(const Rectangle& rectangle);
 
 // Sides of the domain.
-[[nodiscard]] Rectangle domain_of(const config::Case& parameters);
+[[nodiscard]] Rectangle domain_of(const config::Grid& grid);
 
 struct MapRequest {
-  std::string key;  // key that named the file
-  std::string file;
+  Located<std::string> file;
   Quantity quantity;                   // of its values
   std::string crs;                     // of the ground
   std::optional<Rectangle> area;       // required area in the ground's coordinates; empty: the whole raster
@@ -61,7 +64,6 @@ struct MapRequest {
 
 // The reference system is that of the file. It is that of the ground, with a warning, if the file has none, or one that
 // its coordinates cannot be in. Throws UserError if the raster does not overlap the area.
-[[nodiscard]] Raster read_map(const config::Case& parameters, const MapRequest& request,
-                              std::vector<std::string>& warnings);
+[[nodiscard]] Raster read_map(const MapRequest& request, std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

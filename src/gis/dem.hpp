@@ -7,25 +7,61 @@
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
-#include "gis/point_window.hpp"
+#include "gis/case_inputs.hpp"
+#include "gis/raster_file.hpp"
 
 namespace thawslide::gis {
+
+// DEM file, and the points at which it is read.
+class DemFile {
+ public:
+  // `crs`: as terrain.crs; empty: that of the file. `resample`: distance of the points [m]; 0: those of the file.
+  // Throws UserError if the system is not a map projection in metres. Appends warnings.
+  DemFile(const Located<std::string>& file, const Located<std::string>& crs, const Located<double>& resample,
+          std::vector<std::string>& warnings);
+
+  // Without values, in the reference system of the computation.
+  [[nodiscard]] const Raster& points() const { return points_; }
+  [[nodiscard]] const std::string& file() const { return file_.file(); }
+  // Vertical reference system of the elevations; empty: not specified.
+  [[nodiscard]] const std::string& heights() const { return heights_; }
+  // The file's own points.
+  [[nodiscard]] const Raster& own_points() const { return file_.layout(); }
+  // At `points` within a rectangle, and at the file's own points, within a rectangle or all. Throws UserError for
+  // impossible elevations.
+  [[nodiscard]] Raster read(const Rectangle& area) const;
+  [[nodiscard]] Raster read_own_points(const std::optional<Rectangle>& area = std::nullopt) const;
+
+ private:
+  std::string place_;
+  Located<double> resample_;
+  RasterFile file_;
+  Raster points_;
+  std::string heights_;
+};
 
 struct Dem {
   Raster raster;            // around the domain, in the reference system of the computation; NaN in holes
   Raster before_smoothing;  // at the same points; empty: no smoothing
   config::Roughness roughness;
-  std::string heights;  // vertical reference system of the elevations; empty: not specified
+  std::string heights;  // as DemFile
   Rectangle span;       // from the first to the last possible point of the file: limit of a domain
 
   [[nodiscard]] const Raster& as_measured() const { return before_smoothing.empty() ? raster : before_smoothing; }
 };
 
-// Complete DEM of a file, for computations without a case. `crs`: as terrain.crs. Appends warnings.
-[[nodiscard]] Raster read_dem(const std::string& file, const std::string& crs, std::vector<std::string>& warnings);
+// DEM in a domain with a margin of some cells of the grid [m], smoothed as specified by terrain.smooth. `bodies`:
+// rectangles around them. Appends warnings.
+[[nodiscard]] Dem load_dem(const DemFile& file, const Rectangle& domain, double cell,
+                           const config::NumberOrAuto& smooth, const std::vector<Rectangle>& bodies,
+                           std::vector<std::string>& warnings);
 
-// Crops the DEM to the domain with a margin of some cells, and resamples and smooths it as specified by the case.
-// Appends warnings.
-[[nodiscard]] Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings);
+// Warnings about no-data points within the domain, with the effect on a slide that reaches them, and about probes whose
+// point, or all of whose corners, have no terrain data.
+[[nodiscard]] std::vector<std::string> warnings_of_holes(const config::Case& parameters, const config::Site& site);
+
+// Warning about points that are 0 in ground that is nowhere near this height: no data that the file does not declare.
+// Empty if there are none.
+[[nodiscard]] std::string warning_of_zeros(const std::string& file, const Raster& ground);
 
 }  // namespace thawslide::gis

@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
-#include "gis/case_inputs.hpp"
 
 namespace thawslide::gis {
 
@@ -121,13 +120,12 @@ std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::stri
   return areas;
 }
 
-VectorLayer read_named_polygons(const config::Case& parameters, const PolygonRequest& request, const std::string& crs,
+VectorLayer read_named_polygons(const PolygonRequest& request, const std::string& crs,
                                 std::vector<std::string>& warnings) {
-  VectorLayer layer =
-      with_error_location(parameters, request.table + request.key, [&] { return read_polygons(request.file, crs); });
+  VectorLayer layer = at_place(request.file.place, [&] { return read_polygons(request.file.value, crs); });
   warnings.insert(warnings.end(), layer.warnings.begin(), layer.warnings.end());
-  layer.features = with_error_location(parameters, request.table + "polygons",
-                                       [&] { return features_named(layer, request.names, request.name_attribute); });
+  layer.features =
+      at_place(request.names.place, [&] { return features_named(layer, request.names.value, request.name_attribute); });
   return layer;
 }
 
@@ -139,14 +137,13 @@ Polygons union_of_features(const VectorLayer& layer) {
   return union_of(all);
 }
 
-Polygons part_in_domain(const config::Case& parameters, const PolygonRequest& request, const Polygons& polygons) {
-  const Rectangle domain = domain_of(parameters);
+Polygons part_in_domain(const PolygonRequest& request, const Polygons& polygons, const Rectangle& domain) {
   Polygons inside = intersection_of(polygons, {box_polygon(domain)});
   if (!(area_of(inside) > 0.0)) {
-    fail_at(
-        parameters, request.table + request.key,
-        "{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and reference system.",
-        request.file, format_range(extent_of(polygons)), format_range(domain));
+    throw UserError(
+        "{}: {}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and reference "
+        "system.",
+        request.file.place, request.file.value, format_range(extent_of(polygons)), format_range(domain));
   }
   return inside;
 }

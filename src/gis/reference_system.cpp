@@ -78,24 +78,24 @@ double two_digits(double value) {
 }
 
 // Command that converts a raster to metres, in the UTM zone of the raster's centre.
-std::string warp_command(const Located& raster, const std::string& source_option, double longitude, double latitude,
+std::string warp_command(const MapExtent& raster, const std::string& source_option, double longitude, double latitude,
                          double metres_per_unit) {
   const int number = utm_number(longitude, latitude);
   const std::filesystem::path file(raster.file);
   const std::filesystem::path target = file.parent_path() / fmt::format("{}-EPSG{}.tif", file.stem().string(), number);
-  const double cell = two_digits(raster.cell_y * metres_per_unit);
+  const double cell = two_digits(raster.cell * metres_per_unit);
   return fmt::format("gdalwarp {}-t_srs EPSG:{} -tr {:g} {:g} -r bilinear {} {}", source_option, number, cell, cell,
                      shell_quote(file.string()), shell_quote(target.string()));
 }
 
-std::string warp_of_degrees(const Located& raster, const std::string& source_option) {
+std::string warp_of_degrees(const MapExtent& raster, const std::string& source_option) {
   constexpr double metres_per_degree = 111.3e3;  // of latitude, approximately
   const Rectangle& extent = raster.extent;
   return warp_command(raster, source_option, 0.5 * (extent.min_x + extent.max_x), 0.5 * (extent.min_y + extent.max_y),
                       metres_per_degree);
 }
 
-[[noreturn]] void fail_without_system(const Located& raster) {
+[[noreturn]] void fail_without_system(const MapExtent& raster) {
   const std::string found =
       fmt::format("{}: the file names no coordinate reference system ({})", raster.file, format_range(raster.extent));
   if (can_be_degrees(raster.extent)) {
@@ -108,7 +108,7 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
                   found);
 }
 
-[[noreturn]] void fail_with_degrees(const Located& raster, const std::string& wkt) {
+[[noreturn]] void fail_with_degrees(const MapExtent& raster, const std::string& wkt) {
   if (!can_be_degrees(raster.extent)) {
     throw UserError(
         "{}: the tag specifies degrees ({}), but the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
@@ -120,7 +120,7 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
 }
 
 // Longitude and latitude of the raster's centre; NaN if undefined.
-std::array<double, 2> middle_in_degrees(const Located& raster, const std::string& wkt) {
+std::array<double, 2> middle_in_degrees(const MapExtent& raster, const std::string& wkt) {
   OGRSpatialReference degrees;
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   degrees.importFromEPSG(4326);
@@ -130,7 +130,7 @@ std::array<double, 2> middle_in_degrees(const Located& raster, const std::string
   return is_known ? std::array<double, 2>{x[0], y[0]} : std::array<double, 2>{std::nan(""), std::nan("")};
 }
 
-[[noreturn]] void fail_with_unit(const Located& raster, const std::string& wkt, const std::string& unit,
+[[noreturn]] void fail_with_unit(const MapExtent& raster, const std::string& wkt, const std::string& unit,
                                  double metres_per_unit, bool from_key) {
   if (from_key) {
     throw UserError("{} is in the unit '{}'; allowed: a map projection in metres, such as \"EPSG:31287\".",
@@ -232,7 +232,7 @@ bool can_be_degrees(const Rectangle& extent) {
          std::max(std::abs(extent.min_y), std::abs(extent.max_y)) <= 90.0;
 }
 
-std::string metric_system(const Located& raster, const std::string& wkt_of_file, const std::string& terrain_crs) {
+std::string metric_system(const MapExtent& raster, const std::string& wkt_of_file, const std::string& terrain_crs) {
   const bool from_key = !terrain_crs.empty();
   const std::string wkt = from_key ? reference_system_named(terrain_crs) : wkt_of_file;
   require_projection_database();  // without it, a file's system may be misread
@@ -266,7 +266,7 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   return wkt_from_reference(&reference);
 }
 
-std::string distortion_note(const Located& raster, const std::string& wkt, bool from_key) {
+std::string distortion_note(const MapExtent& raster, const std::string& wkt, bool from_key) {
   constexpr double noticeable = 0.01, most = 0.05;
   const PointScales scales = worst_scales(wkt, raster.extent);
   if (scales.error() > most) {
@@ -307,7 +307,7 @@ void require_same_heights(const std::string& file, const std::string& found, con
   }
 }
 
-std::string location_warning(const Located& raster, const std::string& wkt) {
+std::string location_warning(const MapExtent& raster, const std::string& wkt) {
   constexpr double far = 1000.0, kilometres_per_degree = 111.2;  // [km]; along a meridian
   const GdalMessages messages;
   const OGRSpatialReference given = reference_from_wkt(wkt);

@@ -9,10 +9,10 @@
 namespace thawslide::gis {
 
 // Raster properties used in messages about its reference system.
-struct Located {
+struct MapExtent {
   std::string file;
-  Rectangle extent;                   // of its coordinates, in the units of the file
-  double cell_x = 0.0, cell_y = 0.0;  // of a raster, in the units of the file
+  Rectangle extent;   // of its coordinates, in the units of the file
+  double cell = 0.0;  // in the units of the file
 };
 
 // Throws UserError if PROJ does not find its database.
@@ -31,12 +31,12 @@ void require_projection_database();
 
 // System for the computation: that of `terrain.crs`, otherwise that of the file. Throws UserError, with the remedy, if
 // there is none, or if it is not a map projection in metres. Only its horizontal part is returned.
-[[nodiscard]] std::string metric_system(const Located& raster, const std::string& wkt_of_file,
+[[nodiscard]] std::string metric_system(const MapExtent& raster, const std::string& wkt_of_file,
                                         const std::string& terrain_crs);
 
 // Note if lengths on the map differ from those on the ground by more than 1 % at a corner of the raster; empty
 // otherwise. Throws UserError beyond 5 %. `from_key`: the system is that of terrain.crs.
-[[nodiscard]] std::string distortion_note(const Located& raster, const std::string& wkt, bool from_key);
+[[nodiscard]] std::string distortion_note(const MapExtent& raster, const std::string& wkt, bool from_key);
 
 // Name of the vertical datum, or of the horizontal one for ellipsoidal heights; empty if it is not specified.
 [[nodiscard]] std::string height_system_of(const std::string& wkt);
@@ -44,6 +44,6 @@ void require_projection_database();
 void require_same_heights(const std::string& file, const std::string& found, const std::string& dem);
 
 // Warning if a raster lies far outside the area of use of its system; empty otherwise.
-[[nodiscard]] std::string location_warning(const Located& raster, const std::string& wkt);
+[[nodiscard]] std::string location_warning(const MapExtent& raster, const std::string& wkt);
 
 }  // namespace thawslide::gis

@@ -7,12 +7,10 @@
 #include "base/nearest_known.hpp"
 #include "base/raster_sampling.hpp"
 #include "base/rounding.hpp"
-#include "gis/case_inputs.hpp"
 #include "gis/features.hpp"
 #include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
-#include "gis/release_area.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {
@@ -40,24 +38,22 @@ Raster cropped(const Raster& thickness, const Raster& ground) {
   return part_of(thickness, window);
 }
 
-void check_volume(const config::Case& parameters, const std::string& name, const Raster& thickness) {
-  const double volume = volume_of(thickness);
+void check_volume(const ReleaseInput& input, const Raster& thickness) {
+  const double volume = volume_of(thickness), largest = input.body.largest_volume;
   const double most = *std::ranges::max_element(thickness.values);
   if (!(volume > 0.0)) {
-    fail_at(parameters, key_of(name, "thickness"),
-            "{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
-            area_file(parameters, name));
+    input.fail("thickness",
+               "{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
+               input.area_file());
   }
-  const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
-    fail_at(parameters, area_key(parameters, name),
-            "{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. {} If the volume "
-            "is right, confirm it by a larger body.{}.largest_volume.",
-            area_file(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name, rounded_text(largest, 3),
-            parameters.bodies.at(name).release.empty() && most > thickest
-                ? swapped_dem
-                : "Is the thickness in the wrong unit? Metres are needed.",
-            name);
+    input.fail(input.area_key(),
+               "{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. {} If the "
+               "volume is right, confirm it by a larger body.{}.largest_volume.",
+               input.area_file(), rounded_text(volume, 3), rounded_text(most, 3), input.name, rounded_text(largest, 3),
+               input.body.release.empty() && most > thickest ? swapped_dem
+                                                             : "Is the thickness in the wrong unit? Metres are needed.",
+               input.name);
   }
 }
 
@@ -75,25 +71,26 @@ void warn_of_thick_release(const std::string& name, const config::Release& relea
 }
 
 // Time of a body from an attribute of its polygons [s]; 0 without one.
-double release_time_of(const config::Case& parameters, const std::string& name, const ReleaseArea& area) {
-  const std::string& attribute = parameters.bodies.at(name).release_time.attribute;
+double release_time_of(const ReleaseInput& input, const ReleaseArea& area) {
+  const std::string& attribute = input.body.release_time.attribute;
   if (attribute.empty()) {
     return 0.0;
   }
-  const std::string key = key_of(name, "release_time");
-  const std::vector<ValuedArea> parts =
-      with_error_location(parameters, key, [&] { return areas_by_value(area.layer, attribute, key); });
+  const std::vector<ValuedArea> parts = at_place(input.place("release_time"), [&] {
+    return areas_by_value(area.layer, attribute, input.full_key("release_time"));
+  });
   const double first = parts.front().value, last = parts.back().value;
   if (parts.size() > 1) {
-    fail_at(parameters, key,
-            "{}: the attribute '{}' of the polygons of body.{} is from {:g} to {:g}; allowed: one value. Make a body "
-            "of each stage, and select its polygons by body.NAME.polygons.",
-            area_file(parameters, name), attribute, name, first, last);
+    input.fail(
+        "release_time",
+        "{}: the attribute '{}' of the polygons of body.{} is from {:g} to {:g}; allowed: one value. Make a body "
+        "of each stage, and select its polygons by body.NAME.polygons.",
+        input.area_file(), attribute, input.name, first, last);
   }
-  if (!(first >= 0.0 && first < parameters.time.end)) {
-    fail_at(parameters, key,
-            "{}: the attribute '{}' is {:g} s; allowed: from 0 to less than time.end, {:g} s. Correct it.",
-            area_file(parameters, name), attribute, first, parameters.time.end);
+  if (!(first >= 0.0 && first < input.end)) {
+    input.fail("release_time",
+               "{}: the attribute '{}' is {:g} s; allowed: from 0 to less than time.end, {:g} s. Correct it.",
+               input.area_file(), attribute, first, input.end);
   }
   return first;
 }
@@ -161,25 +158,23 @@ Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField
 
 // Initial fields from maps by key of the body, at the points of `thickness`, which are among those of the area's
 // `fraction`. Points outside the release have the value of the nearest one within. Throws UserError if a value within
-// the release is missing or out of range. Appends warnings.
-std::map<std::string, Raster> fields_of(const config::Case& parameters, const std::string& body,
-                                        const ReleaseArea& area, const Raster& thickness,
-                                        std::vector<std::string>& warnings) {
+// the release is missing or out of range.
+std::map<std::string, Raster> fields_of(const ReleaseInput& input, const ReleaseArea& area, const Raster& thickness) {
   std::map<std::string, Raster> fields;
   for (const MappedField& what : mapped_fields) {
-    const InitialField& field = parameters.bodies.at(body).*what.member;
+    const InitialField& field = input.body.*what.member;
     if (!field.is_map()) {
       continue;
     }
-    const std::string key = key_of(body, what.key);
+    const std::string place = input.place(what.key);
     const bool is_raster = field.over == InitialField::Over::raster;
     const Raster map =
-        is_raster
-            ? read_map(parameters, {key, field.source, what.quantity, area.fraction.crs, span_of_points(area.fraction)},
-                       warnings)
-            : Raster{};
-    fields[what.key] = with_error_location(parameters, key, [&] {
-      Raster made = is_raster ? from_raster(area, map, what, field.source) : from_attribute(area, field.source, key);
+        is_raster ? read_map({{field.source, place}, what.quantity, area.fraction.crs, span_of_points(area.fraction)},
+                             input.warnings)
+                  : Raster{};
+    fields[what.key] = at_place(place, [&] {
+      Raster made = is_raster ? from_raster(area, map, what, field.source)
+                              : from_attribute(area, field.source, input.full_key(what.key));
       check_values(made, area.fraction, what, is_raster ? field.source : area.layer.file);
       for (std::size_t k = 0; k < made.values.size(); ++k) {
         if (!(area.fraction.values[k] > 0.0)) {
@@ -195,24 +190,20 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
 
 }  // namespace
 
-LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
-                           std::vector<std::string>& warnings) {
-  ReleaseArea area = load_release_area(parameters, body, ground, warnings);
-  const Raster thickness = vertical_thickness_of(parameters, body, area, ground, warnings);
-  check_volume(parameters, body, thickness);
+LoadedRelease load_release(const ReleaseInput& input) {
+  ReleaseArea area = load_release_area(input);
+  const Raster thickness = vertical_thickness_of(input, area);
+  check_volume(input, thickness);
   LoadedRelease loaded;
   config::Release& release = loaded.release;
-  release.release_time = release_time_of(parameters, body, area);
-  release.thickness = cropped(thickness, ground.raster);
-  release.fields = fields_of(parameters, body, area, release.thickness, warnings);
-  for (const Polygon& polygon : area.polygons) {
-    release.outlines.push_back(polygon.outline);
-    release.outlines.insert(release.outlines.end(), polygon.holes.begin(), polygon.holes.end());
-  }
+  release.release_time = release_time_of(input, area);
+  release.thickness = cropped(thickness, input.ground.raster);
+  release.fields = fields_of(input, area, release.thickness);
+  release.outlines = rings_of(area.polygons);
   loaded.polygons = area.is_raster() ? areas_of_mask(area.fraction) : std::move(area.polygons);
   release.area = area_of(loaded.polygons);
-  warn_of_thick_release(body, release, warnings);
-  loaded.spread = tapered(area.fraction, parameters.bodies.at(body).taper);
+  warn_of_thick_release(input.name, release, input.warnings);
+  loaded.spread = tapered(area.fraction, input.body.taper);
   loaded.fraction = std::move(area.fraction);
   return loaded;
 }

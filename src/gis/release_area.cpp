@@ -1,15 +1,15 @@
-#include "gis/release_area.hpp"
+// Areas of releases.
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
-#include "gis/case_inputs.hpp"
 #include "gis/features.hpp"
 #include "gis/filters.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
+#include "gis/release.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
 
@@ -36,21 +36,20 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
 }
 
 // `extent`: of all positive thickness before tapering. `is_dem`: the thickness seems to be elevations.
-void check_area(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground,
-                bool is_dem = false) {
+void check_area(const ReleaseInput& input, const Rectangle& extent, bool is_dem = false) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
     const std::string beyond = describe_overhang(extent, outer);
     if (!beyond.empty()) {
-      fail_at(parameters, area_key(parameters, body),
-              "{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}", area_file(parameters, body),
-              extent.touches(outer) ? "partly " : "", what, beyond, format_range(extent), format_range(outer), remedy);
+      input.fail(input.area_key(), "{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
+                 input.area_file(), extent.touches(outer) ? "partly " : "", what, beyond, format_range(extent),
+                 format_range(outer), remedy);
     }
   };
   check(
-      "the DEM", ground.span,
+      "the DEM", input.ground.span,
       fmt::format("Check that both have the same location and reference system (the DEM has {}), or use a larger DEM.",
-                  name_of(ground.raster.crs)));
-  check("the domain", domain_of(parameters), is_dem ? swapped_dem : "Widen grid.min and grid.max.");
+                  name_of(input.ground.raster.crs)));
+  check("the domain", input.domain, is_dem ? swapped_dem : "Widen grid.min and grid.max.");
 }
 
 // Widest taper whose points lie within `outer`, around an extent that does.
@@ -62,47 +61,36 @@ double widest_taper(const Rectangle& extent, const Rectangle& outer, const Raste
                    along(extent.min_y - outer.min_y, ground.cell_y), along(outer.max_y - extent.max_y, ground.cell_y)});
 }
 
-void check_taper(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
-  const double taper = parameters.bodies.at(body).taper;
-  const Raster& points = ground.raster;
+void check_taper(const ReleaseInput& input, const Rectangle& extent) {
+  const double taper = input.body.taper;
+  const Raster& points = input.ground.raster;
   const Rectangle reached = extent.widened(taper_reach(taper, points.cell_x) * points.cell_x,
                                            taper_reach(taper, points.cell_y) * points.cell_y);
   const auto check = [&](const char* what, const Rectangle& outer, const char* remedy) {
     const std::string beyond = describe_overhang(reached, outer);
     if (!beyond.empty()) {
-      fail_at(parameters, key_of(body, "taper"),
-              "a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; allowed: up to "
-              "{:.9g} m. Set a narrower one, or {}.",
-              taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy);
+      input.fail(
+          "taper",
+          "a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; allowed: up to "
+          "{:.9g} m. Set a narrower one, or {}.",
+          taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy);
     }
   };
-  check("the DEM", ground.span, "take a larger DEM");
-  check("the domain", domain_of(parameters), "widen grid.min and grid.max");
+  check("the DEM", input.ground.span, "take a larger DEM");
+  check("the domain", input.domain, "widen grid.min and grid.max");
 }
 
 // A release smaller than a cell would become much thinner, because its volume is distributed over the cells of DEM
 // points.
-void check_size(const config::Case& parameters, const std::string& body, double size, const Raster& ground) {
-  const double cell = ground.cell_x * ground.cell_y;
+void check_size(const ReleaseInput& input, double size) {
+  const double cell = input.ground.raster.cell_x * input.ground.raster.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
     const double finer = 0.25 * std::sqrt(size);
-    fail_at(
-        parameters, key_of(body, "release"),
+    input.fail(
+        "release",
         "{}: the release is smaller than a cell of the DEM ({} m2; {} m2), over which it would be distributed and "
         "become too thin. Draw it larger, or resample the DEM (gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-        parameters.bodies.at(body).release, rounded_text(size, 3), rounded_text(cell, 3), finer, finer,
-        shell_quote(parameters.terrain.file));
-  }
-}
-
-void warn_of_narrow(const std::string& body, const Raster& fraction, std::vector<std::string>& warnings) {
-  const double most = *std::ranges::max_element(fraction.values);
-  if (most < 0.995) {
-    warnings.push_back(
-        fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole. It is spread "
-                    "over partly covered cells, and receives up to {:.0f} % of the given thickness. The volume is "
-                    "preserved. Draw it larger, or resample the DEM",
-                    body, fraction.cell_x, fraction.cell_y, 100.0 * most));
+        input.body.release, rounded_text(size, 3), rounded_text(cell, 3), finer, finer, shell_quote(input.dem_file));
   }
 }
 
@@ -165,78 +153,57 @@ Raster coarser_above(const Raster& surface, const Raster& ground, double toleran
   return above;
 }
 
-// Thickness from a raster, or height of a surface above the ground, at the ground's points.
-Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
-                                  std::vector<std::string>& warnings) {
-  const config::MapValue& thickness = parameters.bodies.at(name).thickness;
-  Raster map = read_map(
-      parameters, {area_key(parameters, name), thickness.source, Quantity::length, ground.raster.crs, std::nullopt},
-      warnings);
+// Thickness from a raster, or height of a surface above the ground at the ground's points.
+Raster thickness_without_polygons(const ReleaseInput& input) {
+  const config::MapValue& thickness = input.body.thickness;
+  Raster map =
+      read_map({{thickness.source, input.place("thickness")}, Quantity::length, input.ground.raster.crs, std::nullopt},
+               input.warnings);
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
-  // not smoothed, like the surface before release
-  const Raster& measured = ground.as_measured();
-  const double tolerance = parameters.bodies.at(name).surface_tolerance;
+  const Raster& measured = input.ground.as_measured();  // not smoothed, like the surface before release
+  const double tolerance = input.body.surface_tolerance;
   return is_finer(map, measured) ? finer_above(map, measured, tolerance) : coarser_above(map, measured, tolerance);
 }
 
-ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,
-                           std::vector<std::string>& warnings) {
-  const config::Body& body = parameters.bodies.at(name);
-  const std::string key = area_key(parameters, name);
+ReleaseArea area_of_raster(const ReleaseInput& input) {
+  const Raster& ground = input.ground.raster;
+  const std::string place = input.place("thickness");
   ReleaseArea area;
-  area.source = thickness_without_polygons(parameters, name, ground, warnings);
-  const Rectangle extent =
-      with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
-  const auto& values = area.source.values;
-  check_area(parameters, name, extent, ground,
-             std::ranges::any_of(values, [](double value) { return value > thickest; }));
-  check_taper(parameters, name, extent, ground);
+  area.source = thickness_without_polygons(input);
+  const Rectangle extent = at_place(place, [&] { return extent_of_positive(input.body, area.source, ground.crs); });
+  check_area(input, extent, std::ranges::any_of(area.source.values, [](double value) { return value > thickest; }));
+  check_taper(input, extent);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
-  area.fraction = with_error_location(parameters, key, [&] {
-    return sampled(area.source, points_about(reached, body.taper, ground.raster), Missing::zero);
-  });
+  area.fraction = at_place(
+      place, [&] { return sampled(area.source, points_about(reached, input.body.taper, ground), Missing::zero); });
   for (double& fraction : area.fraction.values) {
     fraction = fraction > 0.0 ? 1.0 : 0.0;
   }
   return area;
 }
 
-ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
-                             std::vector<std::string>& warnings) {
-  const config::Body& body = parameters.bodies.at(name);
+ReleaseArea area_of_polygons(const ReleaseInput& input) {
+  const config::Body& body = input.body;
+  const Raster& ground = input.ground.raster;
   ReleaseArea area;
-  area.layer =
-      read_named_polygons(parameters, {key_of(name, ""), "release", body.release, body.polygons, body.name_attribute},
-                          ground.raster.crs, warnings);
+  area.layer = read_named_polygons(
+      {{body.release, input.place("release")}, {body.polygons, input.place("polygons")}, body.name_attribute},
+      ground.crs, input.warnings);
   area.polygons = union_of_features(area.layer);
   const Rectangle extent = extent_of(area.polygons);
-  check_area(parameters, name, extent, ground);
-  check_taper(parameters, name, extent, ground);
-  check_size(parameters, name, area_of(area.polygons), ground.raster);
-  area.fraction = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
-  warn_of_narrow(name, area.fraction, warnings);
+  check_area(input, extent);
+  check_taper(input, extent);
+  check_size(input, area_of(area.polygons));
+  area.fraction = coverage_of(area.polygons, points_about(extent, body.taper, ground));
   return area;
 }
 
 }  // namespace
 
-std::string key_of(const std::string& body, const std::string& name) { return fmt::format("body.{}.{}", body, name); }
-
-std::string area_key(const config::Case& parameters, const std::string& body) {
-  return key_of(body, parameters.bodies.at(body).release.empty() ? "thickness" : "release");
-}
-
-const std::string& area_file(const config::Case& parameters, const std::string& body) {
-  const config::Body& what = parameters.bodies.at(body);
-  return what.release.empty() ? what.thickness.source : what.release;
-}
-
-ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
-                              std::vector<std::string>& warnings) {
-  return parameters.bodies.at(body).release.empty() ? area_of_raster(parameters, body, ground, warnings)
-                                                    : area_of_polygons(parameters, body, ground, warnings);
+ReleaseArea load_release_area(const ReleaseInput& input) {
+  return input.body.release.empty() ? area_of_raster(input) : area_of_polygons(input);
 }
 
 }  // namespace thawslide::gis

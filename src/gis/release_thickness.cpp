@@ -4,12 +4,11 @@
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
-#include "gis/case_inputs.hpp"
 #include "gis/features.hpp"
 #include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
-#include "gis/release_area.hpp"
+#include "gis/release.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {
@@ -20,16 +19,8 @@ using config::MapValue;
 
 class ThicknessMaker {
  public:
-  ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Dem& ground,
-                 std::vector<std::string>& warnings)
-      : case_(parameters),
-        name_(body),
-        body_(parameters.bodies.at(body)),
-        area_(area),
-        ground_(ground.raster),
-        measured_(ground.as_measured()),
-        heights_(ground.heights),
-        warnings_(warnings) {}
+  ThicknessMaker(const ReleaseInput& input, const ReleaseArea& area)
+      : input_(input), body_(input.body), area_(area), ground_(input.ground.raster) {}
 
   Raster make() {
     Raster thickness = area_.is_raster() ? of_release_raster() : of_polygons();
@@ -39,21 +30,15 @@ class ThicknessMaker {
     }
     thickness = tapered(thickness, body_.taper);
     check_ground(thickness, Spread::by_taper);
-    if (body_.taper > 0.0 && taper_reach(body_.taper, ground_.cell_x) + taper_reach(body_.taper, ground_.cell_y) == 0) {
-      warnings_.push_back(
-          fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x {:g} m: it "
-                      "changes nothing",
-                      name_, body_.taper, ground_.cell_x, ground_.cell_y));
-    }
     return thickness;
   }
 
  private:
   enum class Spread { by_outline, by_taper };
 
-  template <class... Values>
-  [[noreturn]] void fail(const char* key, fmt::format_string<Values...> form, Values&&... values) const {
-    fail_at(case_, key_of(name_, key), fmt::format(form, std::forward<Values>(values)...));
+  template <class Work>
+  auto at_thickness(const Work& work) const {
+    return at_place(input_.place("thickness"), work);
   }
 
   // Indices of a point of the area in the ground raster; nothing if there is no ground.
@@ -85,16 +70,16 @@ class ThicknessMaker {
       }
     });
     if (without > 0 && spread == Spread::by_taper) {
-      fail("taper",
-           "a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, such as {}. Set a "
-           "narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
-           body_.taper, area_file(case_, name_), without, first, shell_quote(case_.terrain.file));
+      input_.fail("taper",
+                  "a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, such as {}. Set a "
+                  "narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
+                  body_.taper, input_.area_file(), without, first, shell_quote(input_.dem_file));
     }
     if (without > 0) {
-      fail(body_.release.empty() ? "thickness" : "release",
-           "{}: the release lies over nodata of the DEM at {} of its points, such as {}. Fill the holes "
-           "(gdal_fillnodata.py {} filled.tif), or move the release.",
-           area_file(case_, name_), without, first, shell_quote(case_.terrain.file));
+      input_.fail(input_.area_key(),
+                  "{}: the release lies over nodata of the DEM at {} of its points, such as {}. Fill the holes "
+                  "(gdal_fillnodata.py {} filled.tif), or move the release.",
+                  input_.area_file(), without, first, shell_quote(input_.dem_file));
     }
   }
 
@@ -107,15 +92,8 @@ class ThicknessMaker {
   }
 
   Raster of_release_raster() {
-    const Raster thickness = sampled(area_.source, area_.fraction, Missing::zero);
-    require_not_negative(area_.source, nullptr, "thickness", body_.thickness.source);
-    const double specified = volume_of(area_.source), made = volume_of(thickness);
-    if (area_.source.crs == ground_.crs && std::abs(made - specified) > 1e-3 * specified) {
-      warnings_.push_back(
-          fmt::format("the thickness of the body {} holds {} m3 at its own points and {} m3 at those of the ground",
-                      name_, rounded_text(specified, 4), rounded_text(made, 4)));
-    }
-    return thickness;
+    require_not_negative(area_.source, nullptr);
+    return sampled(area_.source, area_.fraction, Missing::zero);
   }
 
   Raster of_polygons() {
@@ -135,22 +113,21 @@ class ThicknessMaker {
 
   Raster of_number() const {
     if (!(body_.thickness.number > 0.0)) {
-      fail("thickness",
-           "the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or to {{ attribute = "
-           "\"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
-           body_.thickness.number);
+      input_.fail("thickness",
+                  "the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or to {{ attribute = "
+                  "\"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
+                  body_.thickness.number);
     }
     return times_fraction([&](std::size_t) { return body_.thickness.number; });
   }
 
   Raster of_attribute() const {
-    const std::string key = key_of(name_, "thickness");
     Raster thickness = area_.fraction.filled(0.0);
-    for (const ValuedArea& part :
-         with_error_location(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
+    for (const ValuedArea& part : at_thickness(
+             [&] { return areas_by_value(area_.layer, body_.thickness.source, input_.full_key("thickness")); })) {
       if (part.value < 0.0) {
-        fail("thickness", "{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
-             body_.thickness.source, part.value);
+        input_.fail("thickness", "{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
+                    body_.thickness.source, part.value);
       }
       const Raster fraction = coverage_of(part.polygons, area_.fraction);
       for (std::size_t k = 0; k < fraction.values.size(); ++k) {
@@ -161,16 +138,13 @@ class ThicknessMaker {
   }
 
   Raster read_thickness_map() const {
-    return read_map(case_,
-                    {key_of(name_, "thickness"), body_.thickness.source, Quantity::length, ground_.crs,
-                     span_of_points(area_.fraction), "the release",
-                     body_.thickness.from == MapValue::From::surface ? heights_ : ""},
-                    warnings_);
-  }
-
-  template <class Work>
-  auto at_thickness(const Work& work) const {
-    return with_error_location(case_, key_of(name_, "thickness"), work);
+    return read_map({{body_.thickness.source, input_.place("thickness")},
+                     Quantity::length,
+                     ground_.crs,
+                     span_of_points(area_.fraction),
+                     "the release",
+                     body_.thickness.from == MapValue::From::surface ? input_.ground.heights : ""},
+                    input_.warnings);
   }
 
   Raster of_raster() const {
@@ -179,7 +153,7 @@ class ThicknessMaker {
       return of_finer_raster(source);
     }
     const Raster map = at_thickness([&] { return sampled(source, area_.fraction, Missing::zero); });
-    require_not_negative(map, &area_.fraction, "thickness", body_.thickness.source);
+    require_not_negative(map, &area_.fraction);
     return times_fraction([&](std::size_t k) { return map.values[k]; });
   }
 
@@ -187,7 +161,7 @@ class ThicknessMaker {
   // other cells.
   Raster of_finer_raster(const Raster& source) const {
     const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons, ground_.crs); });
-    require_not_negative(part.values, &part.fraction, "thickness", body_.thickness.source);
+    require_not_negative(part.values, &part.fraction);
     const Raster amount = at_thickness([&] { return averaged(part, area_.fraction).amount; });
     Raster within = amount;
     for (std::size_t k = 0; k < within.values.size(); ++k) {
@@ -205,29 +179,32 @@ class ThicknessMaker {
     const Raster surface = read_thickness_map();
     return at_thickness([&] {
       if (is_finer(surface, area_.fraction)) {
-        return averaged(covered_part(above_ground(surface, measured_), area_.polygons, ground_.crs), area_.fraction)
+        return averaged(covered_part(above_ground(surface, input_.ground.as_measured()), area_.polygons, ground_.crs),
+                        area_.fraction)
             .mean;
       }
-      return above_ground(sampled(surface, area_.fraction, Missing::nothing), measured_);
+      return above_ground(sampled(surface, area_.fraction, Missing::nothing), input_.ground.as_measured());
     });
   }
 
   Raster of_surface() const {
     if (body_.placement == config::Placement::cut) {
-      fail("placement",
-           "a thickness from a surface before the slide to the DEM requires that the DEM is the sliding surface: "
-           "nothing is cut out of it. Set \"on_top\".");
+      input_.fail(
+          "placement",
+          "a thickness from a surface before the slide to the DEM requires that the DEM is the sliding surface: "
+          "nothing is cut out of it. Set \"on_top\".");
     }
     if (body_.thickness_along == config::ThicknessAlong::normal) {
-      fail("thickness_along", "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
+      input_.fail("thickness_along",
+                  "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
     }
     const Raster above = above_ground_of_area();
     Raster thickness = area_.fraction;
     for_each_positive(thickness, [&](int column, int row, double& value) {
       const double difference = above.at(column, row);
       const auto specified = [&](const std::string& what) {
-        fail("thickness", "{}: at {}, {}, within the release, {}", body_.thickness.source,
-             coordinate_text(above.x_of(column)), coordinate_text(above.y_of(row)), what);
+        input_.fail("thickness", "{}: at {}, {}, within the release, {}", body_.thickness.source,
+                    coordinate_text(above.x_of(column)), coordinate_text(above.y_of(row)), what);
       };
       if (!in_ground(column, row)) {
         return;
@@ -240,7 +217,7 @@ class ThicknessMaker {
             fmt::format("the surface before the slide lies {} m below the DEM; allowed: above it, or below by up to "
                         "{:g} m. Are the two files swapped? Else draw the release smaller, or set "
                         "body.{}.surface_tolerance to the noise of the two.",
-                        rounded_text(-difference, 3), body_.surface_tolerance, name_));
+                        rounded_text(-difference, 3), body_.surface_tolerance, input_.name));
       }
       value *= difference > body_.surface_tolerance ? difference : 0.0;
     });
@@ -256,32 +233,26 @@ class ThicknessMaker {
     return thickness;
   }
 
-  // `share`: at the same points, those that count; null: all of them.
-  void require_not_negative(const Raster& raster, const Raster* fraction, const char* key,
-                            const std::string& file) const {
+  // `fraction`: at the same points, those that count; null: all of them.
+  void require_not_negative(const Raster& raster, const Raster* fraction) const {
     for_each_point(raster, [&](int column, int row, double value) {
       if (value < 0.0 && (fraction == nullptr || fraction->at(column, row) > 0.0)) {
-        fail(key, "{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", file,
-             coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), value);
+        input_.fail("thickness", "{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", body_.thickness.source,
+                    coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), value);
       }
     });
   }
 
-  const config::Case& case_;
-  const std::string& name_;
+  const ReleaseInput& input_;
   const config::Body& body_;
   const ReleaseArea& area_;
   const Raster& ground_;
-  const Raster& measured_;  // not smoothed, like the surface before release
-  const std::string& heights_;
-  std::vector<std::string>& warnings_;
 };
 
 }  // namespace
 
-Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
-                             const Dem& ground, std::vector<std::string>& warnings) {
-  return ThicknessMaker(parameters, body, area, ground, warnings).make();
+Raster vertical_thickness_of(const ReleaseInput& input, const ReleaseArea& area) {
+  return ThicknessMaker(input, area).make();
 }
 
 }  // namespace thawslide::gis

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
-#include "gis/case_inputs.hpp"
 #include "gis/features.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
@@ -23,61 +21,21 @@ namespace {
 using Areas = std::map<std::string, config::SubstrateArea>;
 using PolygonsOf = std::map<std::string, Polygons>;  // by name of the substrate, within the domain
 
-std::string substrate_key(const std::string& substrate, const std::string& key) {
-  return fmt::format("substrate.{}.{}", substrate, key);
+std::string place_of_key(const config::Case& parameters, const std::string& substrate, const char* key) {
+  return place_of(parameters, fmt::format("substrate.{}.{}", substrate, key));
 }
 
-// Key that specifies the extent of a substrate.
-std::string area_key(const std::string& name, const config::Substrate& substrate) {
-  return substrate_key(name, !substrate.raster.empty()        ? "raster"
-                             : !substrate.outline.empty()     ? "outline"
-                             : std::isfinite(substrate.x_min) ? "x_min"
-                                                              : "x_max");
-}
-
-// Also sets `inside` to the part in the domain.
-config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
-                                      Polygons& inside, std::vector<std::string>& warnings) {
-  const config::Substrate& substrate = parameters.substrates.at(name);
-  const PolygonRequest request{substrate_key(name, ""), "outline", substrate.outline, substrate.polygons,
-                               substrate.name_attribute};
-  const Polygons polygons = union_of_features(read_named_polygons(parameters, request, ground.raster.crs, warnings));
-  inside = part_in_domain(parameters, request, polygons);
-  config::SubstrateArea area;
-  area.area = area_of(inside);
-  area.rings = rings_of(polygons);
-  return area;
-}
-
-// Points of a raster of codes in the domain with one code, or with all.
-struct CodePoints {
-  long count = 0;
-  Rectangle extent;
-
-  void add(double x, double y) {
-    if (count++ == 0) {
-      extent = {x, y, x, y};
-    }
-    extent.include(x, y);
-  }
-  [[nodiscard]] std::string text(const CodePoints& all) const {
-    return fmt::format("{:.2g} % of the domain, {}",
-                       100.0 * static_cast<double>(count) / static_cast<double>(all.count), format_range(extent));
-  }
-};
-
+// Numbers of the points of a raster of codes in an area: with each code, and without one.
 struct CodesFound {
-  std::map<double, CodePoints> by_code;
-  CodePoints without, all;
+  std::map<double, long> by_code;
+  long without = 0;
 };
 
 CodesFound codes_in(const Rectangle& area, const Raster& codes) {
   CodesFound found;
   for_each_point(codes, [&](int column, int row, double code) {
-    const double x = codes.x_of(column), y = codes.y_of(row);
-    if (area.contains(x, y)) {
-      found.all.add(x, y);
-      (std::isnan(code) ? found.without : found.by_code[code]).add(x, y);
+    if (area.contains(codes.x_of(column), codes.y_of(row))) {
+      ++(std::isnan(code) ? found.without : found.by_code[code]);
     }
   });
   return found;
@@ -101,77 +59,75 @@ void make_whole(const std::string& file, Raster& codes) {
 
 // Codes of a file in the ground's coordinates, around the domain; NaN: none. A raster in another reference system is
 // sampled at the ground's points by nearest neighbour.
-Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file, const Raster& ground,
+Raster read_codes(const Located<std::string>& file, const Raster& ground, const Rectangle& domain,
                   std::vector<std::string>& warnings) {
-  Raster codes =
-      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, warnings);
-  return with_error_location(parameters, key, [&] {
-    make_whole(file, codes);
+  Raster codes = read_map({file, Quantity::code, ground.crs, domain, "the domain"}, warnings);
+  return at_place(file.place, [&] {
+    make_whole(file.value, codes);
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
     }
     warnings.push_back(fmt::format("note: the codes of {}, which is in {}, were resampled to the points of the DEM",
-                                   name_of_file(file), name_of(codes.crs)));
-    try {
-      return nearest(codes, ground);
-    } catch (const UserError& error) {
-      throw UserError("{}: {}", file, error.what());
-    }
+                                   name_of_file(file.value), name_of(codes.crs)));
+    return at_place(file.value, [&] { return nearest(codes, ground); });
   });
 }
 
-// Warnings about unnamed codes in the domain, and about parts of it without a code.
-void add_code_warnings(const config::Case& parameters, const std::string& file, const Raster& codes,
-                       std::vector<std::string>& warnings) {
-  std::set<double> named;
-  for (const auto& [name, substrate] : parameters.substrates) {
+// Warning about the part of the domain to which a raster of codes gives no substrate; empty if there is none.
+std::string code_warning(const std::map<std::string, config::Substrate>& substrates, const std::string& file,
+                         const Raster& codes, const Rectangle& domain) {
+  CodesFound found = codes_in(domain, codes);
+  long all = found.without;
+  for (const auto& [code, count] : found.by_code) {
+    all += count;
+  }
+  for (const auto& [name, substrate] : substrates) {
     if (substrate.raster == file) {
-      named.insert(substrate.code);
+      found.by_code.erase(substrate.code);
     }
   }
-  const Rectangle domain = domain_of(parameters);
-  const CodesFound found = codes_in(domain, codes);
-  const std::string name = name_of_file(file);
-  for (const auto& [code, points] : found.by_code) {
-    if (named.count(code) == 0) {
-      warnings.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] applies there", code,
-                                     name, points.text(found.all)));
-    }
+  std::vector<std::string> parts;
+  const auto add = [&](const std::string& what, long count) {
+    parts.push_back(fmt::format("{} ({:.2g} % of its points)", what,
+                                100.0 * static_cast<double>(count) / static_cast<double>(all)));
+  };
+  for (const auto& [code, count] : found.by_code) {
+    add(fmt::format("the code {:g}", code), count);
   }
-  if (found.without.count > 0) {
-    warnings.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] applies there", name,
-                                   found.without.count, found.without.text(found.all)));
+  if (found.without > 0) {
+    add("points without data", found.without);
   }
   const Rectangle covered = span_of_points(codes).widened(0.5 * codes.cell_x, 0.5 * codes.cell_y);
   if (const std::string beyond = describe_overhang(domain, covered); !beyond.empty()) {
-    warnings.push_back(fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] applies there",
-                                   name, beyond));
+    parts.push_back(fmt::format("the domain beyond it ({})", beyond));
   }
+  return parts.empty() ? ""
+                       : fmt::format("{}: no substrate is given for {}: [basal] applies there", name_of_file(file),
+                                     joined_by_and(parts));
 }
 
-config::SubstrateArea area_of_code(const config::Case& parameters, const std::string& name,
-                                   const std::shared_ptr<const Raster>& codes) {
-  const config::Substrate& substrate = parameters.substrates.at(name);
-  config::SubstrateArea area;
-  area.codes = codes;
-  area.code = substrate.code;
-  const CodesFound found = codes_in(domain_of(parameters), *codes);
-  const auto own = found.by_code.find(substrate.code);
+config::SubstrateArea area_of_code(const Located<double>& code, const std::string& file,
+                                   const std::shared_ptr<const Raster>& codes, const Rectangle& domain) {
+  const CodesFound found = codes_in(domain, *codes);
+  const auto own = found.by_code.find(code.value);
   if (own == found.by_code.end()) {
     std::vector<std::string> codes_there;
-    for (const auto& [code, points] : found.by_code) {
-      codes_there.push_back(fmt::format("{:g}", code));
+    for (const auto& [other, count] : found.by_code) {
+      codes_there.push_back(fmt::format("{:g}", other));
     }
-    fail_at(parameters, substrate_key(name, "code"), "{}: the code {} stands nowhere in the domain; found there: {}.",
-            substrate.raster, substrate.code, codes_there.empty() ? "none" : joined_by_and(codes_there));
+    throw UserError("{}: {}: the code {} stands nowhere in the domain; found there: {}.", code.place, file, code.value,
+                    codes_there.empty() ? "none" : joined_by_and(codes_there));
   }
-  area.area = static_cast<double>(own->second.count) * codes->cell_x * codes->cell_y;
+  config::SubstrateArea area;
+  area.codes = codes;
+  area.code = code.value;
+  area.area = static_cast<double>(own->second) * codes->cell_x * codes->cell_y;
   return area;
 }
 
-Polygons polygons_of(const config::Case& parameters, const std::string& name, const Areas& areas) {
-  const Rectangle domain = domain_of(parameters);
-  const config::Substrate& substrate = parameters.substrates.at(name);
+// Of a strip or of codes.
+Polygons polygons_of(const config::Substrate& substrate, const Areas& areas, const std::string& name,
+                     const Rectangle& domain) {
   if (substrate.is_strip()) {
     return {box_polygon({std::max(domain.min_x, substrate.x_min), domain.min_y, std::min(domain.max_x, substrate.x_max),
                          domain.max_y})};
@@ -184,57 +140,52 @@ Polygons polygons_of(const config::Case& parameters, const std::string& name, co
   return intersection_of(areas_of_mask(mask), {box_polygon(domain)});
 }
 
-void check_overlap(const config::Case& parameters, const std::string& first, const std::string& second,
-                   const Polygons& one, const Polygons& other) {
-  if (const auto shared = overlap_of(one, other)) {
-    fail_at(parameters, area_key(second, parameters.substrates.at(second)),
-            "the substrates {} and {} overlap by {} m2 about {}; a place has one substrate. Allowed: slivers up to {} "
-            "m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).",
-            first, second, rounded_text(shared->area, 3), shared->place, rounded_text(shared->allowed, 3),
-            100.0 * overlap_tolerance);
-  }
-}
-
 // Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those
 // with outlines.
 void check_overlaps(const config::Case& parameters, const Areas& areas, PolygonsOf polygons) {
-  const auto polygons_once = [&](const std::string& name) -> const Polygons& {
+  const auto polygons_once = [&](const auto& substrate) -> const Polygons& {
+    const auto& [name, declared] = substrate;
     const auto found = polygons.find(name);
-    return found != polygons.end() ? found->second : polygons[name] = polygons_of(parameters, name, areas);
+    return found != polygons.end() ? found->second
+                                   : polygons[name] = polygons_of(declared, areas, name, domain_of(parameters.grid));
   };
   for (auto second = parameters.substrates.begin(); second != parameters.substrates.end(); ++second) {
     for (auto first = parameters.substrates.begin(); first != second; ++first) {
-      const bool both_strips = first->second.is_strip() && second->second.is_strip();
-      const bool of_one_raster = !first->second.raster.empty() && first->second.raster == second->second.raster;
-      if (!both_strips && !of_one_raster) {
-        check_overlap(parameters, first->first, second->first, polygons_once(first->first),
-                      polygons_once(second->first));
+      const config::Substrate &one = first->second, &other = second->second;
+      if ((one.is_strip() && other.is_strip()) || (!one.raster.empty() && one.raster == other.raster)) {
+        continue;
+      }
+      if (const auto shared = overlap_of(polygons_once(*first), polygons_once(*second))) {
+        const char* const key = !other.raster.empty()        ? "raster"
+                                : !other.outline.empty()     ? "outline"
+                                : std::isfinite(other.x_min) ? "x_min"
+                                                             : "x_max";
+        throw UserError(
+            "{}: the substrates {} and {} overlap by {} m2 about {}; a place has one substrate. Allowed: slivers up to "
+            "{} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).",
+            place_of_key(parameters, second->first, key), first->first, second->first, rounded_text(shared->area, 3),
+            shared->place, rounded_text(shared->allowed, 3), 100.0 * overlap_tolerance);
       }
     }
   }
 }
 
-void check_depths(const config::Case& parameters, const VectorLayer& layer, const std::string& attribute) {
-  for (const Feature& feature : layer.features) {
-    const double depth = feature.numbers.at(attribute);
-    if (!(depth >= 0.0 && depth <= parameters.grid.cell)) {
-      throw UserError(
-          "{}: the attribute '{}' of {} is {:g} m; allowed: from 0 m, where there is no bed, to grid.cell, {:g} m. "
-          "Correct it.",
-          layer.file, attribute, feature.title, depth, parameters.grid.cell);
+std::vector<ValuedArea> areas_by_depth(const Located<InitialField>& depth, const VectorLayer& layer, double cell) {
+  if (depth.value.over != InitialField::Over::attribute) {
+    return {{depth.value.at(0.0, 0.0), union_of_features(layer)}};
+  }
+  return at_place(depth.place, [&] {
+    std::vector<ValuedArea> areas = areas_by_value(layer, depth.value.source, "bed.depth");
+    const std::string attribute = attribute_named(layer, depth.value.source, "bed.depth");
+    for (const Feature& feature : layer.features) {
+      const double value = feature.numbers.at(attribute);
+      if (!(value >= 0.0 && value <= cell)) {
+        throw UserError(
+            "{}: the attribute '{}' of {} is {:g} m; allowed: from 0 m, where there is no bed, to grid.cell, {:g} m. "
+            "Correct it.",
+            layer.file, attribute, feature.title, value, cell);
+      }
     }
-  }
-}
-
-std::vector<ValuedArea> areas_by_depth(const config::Case& parameters, const VectorLayer& layer) {
-  const InitialField& depth = parameters.bed.depth;
-  if (depth.over != InitialField::Over::attribute) {
-    return {{depth.at(0.0, 0.0), union_of_features(layer)}};
-  }
-  const std::string key = "bed.depth";
-  return with_error_location(parameters, key, [&] {
-    std::vector<ValuedArea> areas = areas_by_value(layer, depth.source, key);
-    check_depths(parameters, layer, attribute_named(layer, depth.source, key));
     return areas;
   });
 }
@@ -253,24 +204,32 @@ Raster columns_of_nodes(const config::Grid& grid) {
 }  // namespace
 
 Areas load_substrates(const config::Case& parameters, const Dem& ground, std::vector<std::string>& warnings) {
+  const Rectangle domain = domain_of(parameters.grid);
+  const std::string& crs = ground.raster.crs;
   Areas areas;
   PolygonsOf polygons;
   std::map<std::string, std::shared_ptr<const Raster>> rasters;  // by file
   for (const auto& [name, substrate] : parameters.substrates) {
+    const auto place = [&parameters, &name = name](const char* key) { return place_of_key(parameters, name, key); };
     if (!substrate.outline.empty()) {
-      areas[name] = area_of_outline(parameters, name, ground, polygons[name], warnings);
+      const PolygonRequest request{
+          {substrate.outline, place("outline")}, {substrate.polygons, place("polygons")}, substrate.name_attribute};
+      const Polygons whole = union_of_features(read_named_polygons(request, crs, warnings));
+      polygons[name] = part_in_domain(request, whole, domain);
+      areas[name].area = area_of(polygons[name]);
+      areas[name].rings = rings_of(whole);
     } else if (!substrate.raster.empty()) {
       auto& codes = rasters[substrate.raster];
       if (codes == nullptr) {
         codes = std::make_shared<const Raster>(
-            read_codes(parameters, substrate_key(name, "raster"), substrate.raster, ground.raster, warnings));
+            read_codes({substrate.raster, place("raster")}, ground.raster, domain, warnings));
       }
-      areas[name] = area_of_code(parameters, name, codes);
+      areas[name] = area_of_code({static_cast<double>(substrate.code), place("code")}, substrate.raster, codes, domain);
     }
   }
   check_overlaps(parameters, areas, std::move(polygons));
   for (const auto& [file, codes] : rasters) {
-    add_code_warnings(parameters, file, *codes, warnings);
+    add_warning(code_warning(parameters.substrates, file, *codes, domain), warnings);
   }
   return areas;
 }
@@ -280,12 +239,15 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
   if (parameters.bed.law == config::BedLaw::none || depth.over != InitialField::Over::raster) {
     return {};
   }
-  const std::string key = "bed.depth";
-  const Rectangle domain = domain_of(parameters);
-  const Rectangle about = domain.widened(ground.raster.cell_x, ground.raster.cell_y);
-  const Raster map =
-      read_map(parameters, {key, depth.source, Quantity::length, ground.raster.crs, about, "the domain"}, warnings);
-  return with_error_location(parameters, key, [&] {
+  const std::string place = place_of(parameters, "bed.depth");
+  const Rectangle domain = domain_of(parameters.grid);
+  const Raster map = read_map({{depth.source, place},
+                               Quantity::length,
+                               ground.raster.crs,
+                               domain.widened(ground.raster.cell_x, ground.raster.cell_y),
+                               "the domain"},
+                              warnings);
+  return at_place(place, [&] {
     Raster made = sampled(map, ground.raster, Missing::unknown);
     for_each_point(made, [&](int column, int row, double value) {
       const double x = made.x_of(column), y = made.y_of(row);
@@ -308,11 +270,13 @@ Raster load_bed_in_columns(const config::Case& parameters, const Dem& ground, st
   if (bed.law == config::BedLaw::none || bed.outline.empty()) {
     return {};
   }
-  const PolygonRequest request{"bed.", "outline", bed.outline, bed.polygons, bed.name_attribute};
-  const VectorLayer layer = read_named_polygons(parameters, request, ground.raster.crs, warnings);
-  const Polygons inside = part_in_domain(parameters, request, union_of_features(layer));
+  const PolygonRequest request{located(parameters, "bed.outline", bed.outline),
+                               located(parameters, "bed.polygons", bed.polygons), bed.name_attribute};
+  const VectorLayer layer = read_named_polygons(request, ground.raster.crs, warnings);
+  const Polygons inside = part_in_domain(request, union_of_features(layer), domain_of(parameters.grid));
   Raster columns = columns_of_nodes(parameters.grid);
-  for (const ValuedArea& area : areas_by_depth(parameters, layer)) {
+  for (const ValuedArea& area :
+       areas_by_depth(located(parameters, "bed.depth", bed.depth), layer, parameters.grid.cell)) {
     const Raster fraction = coverage_of(intersection_of(area.polygons, inside), columns);
     for (std::size_t k = 0; k < columns.values.size(); ++k) {
       columns.values[k] += area.value * fraction.values[k];

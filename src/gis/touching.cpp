@@ -1,4 +1,4 @@
-#include "gis/touching.hpp"
+// Bodies that touch.
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <set>
 
 #include "base/nearest_known.hpp"
+#include "base/raster_sampling.hpp"
 #include "base/rounding.hpp"
-#include "gis/case_inputs.hpp"
 #include "gis/point_window.hpp"
-#include "gis/release_area.hpp"
+#include "gis/release.hpp"
 
 namespace thawslide::gis {
 
@@ -64,10 +64,10 @@ std::set<std::string> touching_ones(const config::Case& parameters, const Releas
       }
       const double one = parameters.bodies.at(first->first).taper, other = parameters.bodies.at(second->first).taper;
       if (one != other) {
-        fail_at(parameters, key_of(second->first, "taper"),
-                "the bodies '{}' and '{}' touch, or lie in one another's taper, and their tapers differ: {:g} m and "
-                "{:g} m; allowed: the same. Set both keys to one value.",
-                first->first, second->first, one, other);
+        throw UserError(
+            "{}: the bodies '{}' and '{}' touch, or lie in one another's taper, and their tapers differ: {:g} m and "
+            "{:g} m; allowed: the same. Set both keys to one value.",
+            place_of(parameters, fmt::format("body.{}.taper", second->first)), first->first, second->first, one, other);
       }
       found.insert({first->first, second->first});
     }
@@ -143,12 +143,13 @@ void check_overlaps(const config::Case& parameters, const Releases& releases) {
   for (auto second = releases.begin(); second != releases.end(); ++second) {
     for (auto first = releases.begin(); first != second; ++first) {
       if (const auto shared = overlap_of(first->second.polygons, second->second.polygons)) {
-        fail_at(parameters, area_key(parameters, second->first),
-                "the bodies '{}' and '{}' overlap by {} m2 about {}; allowed: bodies that touch or lie apart, but for "
-                "slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > "
-                "Difference).",
-                first->first, second->first, rounded_text(shared->area, 3), shared->place,
-                rounded_text(shared->allowed, 3), 100.0 * overlap_tolerance);
+        const char* const key = parameters.bodies.at(second->first).release.empty() ? "thickness" : "release";
+        throw UserError(
+            "{}: the bodies '{}' and '{}' overlap by {} m2 about {}; allowed: bodies that touch or lie apart, but for "
+            "slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > "
+            "Difference).",
+            place_of(parameters, fmt::format("body.{}.{}", second->first, key)), first->first, second->first,
+            rounded_text(shared->area, 3), shared->place, rounded_text(shared->allowed, 3), 100.0 * overlap_tolerance);
       }
     }
   }

@@ -108,8 +108,7 @@ void bind_map_files(nb::module_& module) {
           nb::sig("def read(self, first_column: int, first_row: int, columns: int, rows: int, /) -> object"));
   module.def("read_dem", [](const std::string& file, const std::string& crs) {
     std::vector<std::string> warnings;
-    Raster raster = gis::read_dem(file, crs, warnings);
-    return std::pair(std::move(raster), warnings);
+    return std::pair(gis::DemFile({file, ""}, {crs, ""}, {0.0, ""}, warnings).read_own_points(), warnings);
   });
   module.def("read_polygons", &polygons_in,
              nb::sig("def read_polygons(file: str, crs: str, /) -> tuple[list[list[object]], list[str], list[str]]"));

@@ -12,7 +12,7 @@
 #include "sim/setup/domain_bottom.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
-#include "gis/dem_warnings.hpp"
+#include "gis/dem.hpp"
 #include "gis/roughness.hpp"
 #include "gis/site.hpp"
 #include "sim/direction.hpp"
@@ -61,8 +61,7 @@ config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] War
 #ifdef THAWSLIDE_WITH_GIS
   gis::SiteAndWarnings read = gis::load_site(parameters);
   warnings.add(read.warnings);
-  warnings.add(gis::holes_warning(parameters, read.site));
-  warnings.add(gis::probes_in_holes(read.site));
+  warnings.add(gis::warnings_of_holes(parameters, read.site));
   warnings.add(sim::orient_lines(parameters, read.site));
   warnings.add(sim::warning_of_path(parameters, read.site));
   warnings.add(gis::roughness_warning(parameters, read.site));

@@ -64,12 +64,12 @@ def test_a_hole_filled_with_zeros_has_a_warning(thawslide: Program, tmp_path: Pa
         heights[27:30, 40:45] = 0.0
         file.write(heights, 1)
     note = (
-        "warning: 15 points of dem.tif are exactly 0 m among heights of 1000 to 1035 m, such as (412400, 5160300): a "
-        "hole without data? Then declare it in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
+        r"warning: 15 points of dem\.tif are exactly 0 m among heights of \d+ to \d+ m, such as \(412400, 5160300\): a "
+        r"hole without data\? Then declare it in the file, gdal_edit\.py -a_nodata 0 {}dem\.tif, or fill it\n"
     )
-    assert slope.ok(dem=dem).startswith(note.format(f"{slope.folder}/"))
+    assert re.match(note.format(f"{slope.folder}/"), slope.ok(dem=dem))
     for words in (["check", slope.case], ["run", slope.case, "--output", tmp_path / "run", "--set", "time.end=0.01"]):
-        assert note.format(f"{slope.case}/") in thawslide.ok(*words)
+        assert re.search(note.format(f"{slope.case}/"), thawslide.ok(*words))
 
 
 def test_a_release_near_the_edge_of_the_known_terrain_has_a_warning(tmp_path: Path, slope: Slope) -> None:

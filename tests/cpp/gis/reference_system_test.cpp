@@ -8,10 +8,10 @@ namespace {
 
 using namespace map_files;
 
-const Located metric_raster{"dem.tif", {49280.0, 193490.0, 52280.0, 195690.0}, 10.0, 10.0};
-const Located degree_raster{"alps/dem.tif", {10.2, 46.85, 10.3, 46.95}, 1.0 / 3600.0, 1.0 / 3600.0};
+const MapExtent metric_raster{"dem.tif", {49280.0, 193490.0, 52280.0, 195690.0}, 10.0};
+const MapExtent degree_raster{"alps/dem.tif", {10.2, 46.85, 10.3, 46.95}, 1.0 / 3600.0};
 
-std::string error_of_system(const Located& raster, const std::string& of_file, const std::string& given = "") {
+std::string error_of_system(const MapExtent& raster, const std::string& of_file, const std::string& given = "") {
   return error_of([&] { return metric_system(raster, of_file.empty() ? "" : reference_system_named(of_file), given); });
 }
 
@@ -28,10 +28,10 @@ TEST(ReferenceSystemTest, ProjectionsInMetresAreAccepted) {
 }
 
 TEST(ReferenceSystemTest, UnusableSystemsAreRefused) {
-  const Located andes{"my dem.tif", {-77.7, -9.2, -77.6, -9.0}, 0.0001, 0.0001};
-  const Located in_feet{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
+  const MapExtent andes{"my dem.tif", {-77.7, -9.2, -77.6, -9.0}, 0.0001};
+  const MapExtent in_feet{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0};
   struct Row {
-    const Located& raster;
+    const MapExtent& raster;
     const char *of_file, *given;
   };
   for (const Row& row :
@@ -47,7 +47,7 @@ TEST(ReferenceSystemTest, UnusableSystemsAreRefused) {
 
 TEST(ReferenceSystemTest, FarOutsideTheAreaOfTheSystem) {
   const auto warning = [](const Rectangle& extent, const char* system) {
-    return location_warning({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
+    return location_warning({"folder/dem.tif", extent, 10.0}, reference_system_named(system));
   };
   EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:32632"), "");
   EXPECT_EQ(warning({400000.0, 300000.0, 401000.0, 301000.0}, "EPSG:31287"), "");

@@ -3,7 +3,7 @@
 
 #include "gis/filters.hpp"
 #include "gis/point_window.hpp"
-#include "gis/release_area.hpp"
+#include "gis/release.hpp"
 #include "gis/sampling.hpp"
 #include "map_files.hpp"
 

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "base/raster_sampling.hpp"
-#include "gis/dem.hpp"
 #include "gis/filters.hpp"
 #include "site_case.hpp"
 
@@ -290,13 +289,12 @@ TEST(RoughnessTest, PointsAreKeptIfTheDomainIsAlignedWithThem) {
       parameters.grid.cell = distance;
       parameters.grid.min = {rough.x_of(first), rough.y_of(first), 1000.0};
       parameters.grid.max = {rough.x_of(80), rough.y_of(70), 2500.0};
-      std::vector<std::string> warnings;
-      const Dem dem = load_dem(parameters, warnings);
-      ASSERT_GT(dem.roughness.width, 0.0) << distance;
-      ASSERT_EQ(dem.raster.columns, dem.before_smoothing.columns) << distance;
-      ASSERT_EQ(dem.raster.rows, dem.before_smoothing.rows) << distance;
-      EXPECT_NEAR(dem.raster.x, dem.before_smoothing.x, 1e-6 * distance);
-      EXPECT_NEAR(dem.raster.y, dem.before_smoothing.y, 1e-6 * distance);
+      const config::Site site = load_site(parameters).site;
+      ASSERT_GT(site.roughness->width, 0.0) << distance;
+      ASSERT_EQ(site.ground->columns, site.before_smoothing->columns) << distance;
+      ASSERT_EQ(site.ground->rows, site.before_smoothing->rows) << distance;
+      EXPECT_NEAR(site.ground->x, site.before_smoothing->x, 1e-6 * distance);
+      EXPECT_NEAR(site.ground->y, site.before_smoothing->y, 1e-6 * distance);
     }
   }
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/raster_sampling.hpp"
-#include "gis/release_area.hpp"
+#include "gis/release.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"
 

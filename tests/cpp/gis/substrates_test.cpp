@@ -158,16 +158,13 @@ TEST(SubstratesOfMaps, CodesWithoutASubstrateCauseAWarning) {
   made.substrates["ice"] = in_raster(codes_file(code), 1);
   made.substrates["snow"] = in_raster(in_folder("codes.tif"), 2);
   EXPECT_EQ(warnings_of(made),
-            (std::vector<std::string>{"the code 3 of codes.tif (10 % of the domain, x from 400805 to 400895, y from "
-                                      "300105 to 300595) belongs to no substrate: [basal] applies there",
-                                      "codes.tif has no data at 800 of its points in the domain (17 % of the domain, x "
-                                      "from 400105 to 400895, y from 300605 to 300695): [basal] applies there"}));
+            std::vector<std::string>{"codes.tif: no substrate is given for the code 3 (10 % of its points) and points "
+                                     "without data (17 % of its points): [basal] applies there"});
   made.substrates["ice"] = in_raster(codes_file([](double, double) { return 1.0; }, 60), 1);
   made.substrates.erase("snow");
-  EXPECT_EQ(
-      warnings_of(made),
-      std::vector<std::string>{
-          "codes.tif does not cover the domain, which reaches beyond it by 300 m in the east: [basal] applies there"});
+  EXPECT_EQ(warnings_of(made),
+            std::vector<std::string>{"codes.tif: no substrate is given for the domain beyond it (300 m in the east): "
+                                     "[basal] applies there"});
 }
 
 // A raster in longitude and latitude: every point of the ground receives the code of the nearest raster point.
