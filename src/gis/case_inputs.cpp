@@ -70,7 +70,9 @@ Raster read_map(const MapRequest& request, std::vector<std::string>& warnings) {
     }
     Raster raster = file.read(same_system ? request.area : std::nullopt);
     raster.crs = system.wkt;
-    return raster;
+    return same_system
+               ? raster
+               : at_place(name, [&] { return reprojected(raster, request.crs, request.quantity == Quantity::code); });
   });
 }
 

@@ -12,6 +12,7 @@
 #include "gis/filters.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/roughness.hpp"
+#include "gis/sampling.hpp"
 
 namespace thawslide::gis {
 

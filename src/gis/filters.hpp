@@ -1,16 +1,7 @@
-// Filters of rasters: smoothing of a DEM, tapering of the edge of a thickness, and resampling at new points. Only the
-// requested points are computed, from a sufficiently large part of the file, so cropping does not change a value.
-//
-// Along each axis, a resampled value is a weighted sum of old ones. If the new spacing is at most the old one, values
-// are interpolated linearly. Points with a larger spacing get the mean of the linear interpolation over an interval of
-// the new spacing, centred on each. Both reproduce a plane exactly.
+// Filters of rasters: smoothing of a DEM, and tapering of the edge of a thickness.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "base/raster.hpp"
-#include "gis/point_window.hpp"
 
 namespace thawslide::gis {
 
@@ -32,34 +23,5 @@ inline constexpr double smoothing_reach = 4.0;  // standard deviations
 // edge becomes a ramp of width w with smooth ends. The weights sum to 1, so the volume is conserved if the raster has
 // zeros within half the width of every side.
 [[nodiscard]] Raster tapered(const Raster& thickness, double width);
-
-// Weights of the old points first, first + 1, ... for a new one along an axis.
-struct AxisWeights {
-  int first = 0;
-  std::vector<double> weights;
-};
-
-// For a new point at a position, and with a cell width, in units of the old spacing; count: number of old points.
-using WeightsOfPoint = std::function<AxisWeights(double coordinate, double width, int count)>;
-
-// Sums at each point of a layout, over old points with data: of weights times values, and of weights.
-struct WeightedSums {
-  Raster values, weights;
-};
-[[nodiscard]] WeightedSums weighted_sums(const Raster& raster, const Raster& layout, const WeightsOfPoint& weights_of);
-
-// Value over weight if the weight exceeds `least`; otherwise NaN.
-[[nodiscard]] Raster means_of(WeightedSums sums, double least);
-
-// Points `distance` metres apart that fit in a whole raster: from its first point if they are interpolated, from half a
-// distance beyond it if they are means. No columns or rows if none fit.
-[[nodiscard]] Raster resampled_layout(const Raster& layout, double distance);
-
-// Area in which old points must be known for the new ones.
-[[nodiscard]] Rectangle needed_for(const Raster& new_layout);
-
-// Values at the points of the new layout. NaN if an old point that an interpolation needs has no data, or if half of
-// those in a mean have none.
-[[nodiscard]] Raster resampled(const Raster& raster, const Raster& new_layout);
 
 }  // namespace thawslide::gis

@@ -151,7 +151,7 @@ Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField
     return sampled(map, area.fraction, Missing::nothing);
   }
   const Polygons polygons = area.is_raster() ? areas_of_mask(area.fraction) : area.polygons;
-  const CoveredRaster part = covered_part(map, polygons, area.fraction.crs);
+  const CoveredRaster part = covered_part(map, polygons);
   check_values(part.values, part.fraction, what, source, false);
   return averaged(part, area.fraction).mean;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
@@ -10,7 +11,6 @@
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
-#include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {
@@ -94,16 +94,17 @@ void check_size(const ReleaseInput& input, double size) {
   }
 }
 
-Rectangle extent_of_positive(const config::Body& body, const Raster& source, const std::string& crs) {
+Rectangle extent_of_positive(const config::Body& body, const Raster& source) {
   const std::string& file = body.thickness.source;
-  std::vector<double> x, y;
+  std::optional<Rectangle> extent;
   for_each_point(source, [&](int column, int row, double value) {
     if (value > 0.0) {
-      x.push_back(source.x_of(column));
-      y.push_back(source.y_of(row));
+      const double x = source.x_of(column), y = source.y_of(row);
+      extent = extent.value_or(Rectangle{x, y, x, y});
+      extent->include(x, y);
     }
   });
-  if (x.empty()) {
+  if (!extent) {
     if (body.thickness.from == config::MapValue::From::raster) {
       throw UserError("{}: the thickness is not above 0 at any point: there is no release.", file);
     }
@@ -112,17 +113,7 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
         "swapped?",
         file, body.surface_tolerance);
   }
-  if (!Reprojection(source.crs, crs).apply(x, y)) {
-    throw UserError(
-        "{}: points of the raster cannot be transformed to the coordinate reference system of the DEM, {}. Check the "
-        "system of the file.",
-        file, name_of(crs));
-  }
-  Rectangle extent{x[0], y[0], x[0], y[0]};
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    extent.include(x[k], y[k]);
-  }
-  return extent;
+  return *extent;
 }
 
 // Means of the height of a finer surface above the ground, over the fraction of each cell in which the surface is
@@ -172,7 +163,7 @@ ReleaseArea area_of_raster(const ReleaseInput& input) {
   const std::string place = input.place("thickness");
   ReleaseArea area;
   area.source = thickness_without_polygons(input);
-  const Rectangle extent = at_place(place, [&] { return extent_of_positive(input.body, area.source, ground.crs); });
+  const Rectangle extent = at_place(place, [&] { return extent_of_positive(input.body, area.source); });
   check_area(input, extent, std::ranges::any_of(area.source.values, [](double value) { return value > thickest; }));
   check_taper(input, extent);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);

@@ -160,7 +160,7 @@ class ThicknessMaker {
   // Raster cells across an outline may share an area with a ground cell beyond it; this volume is distributed to the
   // other cells.
   Raster of_finer_raster(const Raster& source) const {
-    const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons, ground_.crs); });
+    const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons); });
     require_not_negative(part.values, &part.fraction);
     const Raster amount = at_thickness([&] { return averaged(part, area_.fraction).amount; });
     Raster within = amount;
@@ -179,7 +179,7 @@ class ThicknessMaker {
     const Raster surface = read_thickness_map();
     return at_thickness([&] {
       if (is_finer(surface, area_.fraction)) {
-        return averaged(covered_part(above_ground(surface, input_.ground.as_measured()), area_.polygons, ground_.crs),
+        return averaged(covered_part(above_ground(surface, input_.ground.as_measured()), area_.polygons),
                         area_.fraction)
             .mean;
       }

@@ -26,6 +26,10 @@ class Reprojection {
   std::unique_ptr<Transformation> transformation_;
 };
 
+// A raster in another system, with about its own spacing: bilinear between its points, or codes of the nearest point.
+// Points of which the nearest one has no data have none. Throws UserError without a transformation.
+[[nodiscard]] Raster reprojected(const Raster& raster, const std::string& to_wkt, bool is_code);
+
 // Reference system of a file other than the DEM: that of the file, or that of the ground if the file has none, or one
 // that its coordinates cannot be in. `warning`: empty if there is none.
 struct LikelySystem {

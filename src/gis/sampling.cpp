@@ -1,18 +1,13 @@
 #include "gis/sampling.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/rounding.hpp"
-#include "gis/filters.hpp"
-#include "gis/point_window.hpp"
-#include "gis/polygons.hpp"
-#include "gis/reference_system.hpp"
-#include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
 
@@ -20,6 +15,15 @@ namespace {
 
 constexpr double finer_by = 1.01;
 constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
+
+// Weights of the old points first, first + 1, ... for a new one along an axis.
+struct AxisWeights {
+  int first = 0;
+  std::vector<double> weights;
+};
+
+// For a new point at a position, and with a cell width, in units of the old spacing; count: number of old points.
+using WeightsOfPoint = std::function<AxisWeights(double coordinate, double width, int count)>;
 
 // Fractions of the interval around a position in the cells of old points; positions in units of their spacing. Parts
 // outside the outermost cells are omitted.
@@ -34,180 +38,150 @@ AxisWeights overlaps(double coordinate, double width, int count) {
   return made;
 }
 
-// Linear interpolation that omits points beyond the outermost ones.
-AxisWeights between_points(double coordinate, int count) {
-  const double below = std::floor(coordinate), fraction = coordinate - below;
-  AxisWeights made;
-  for (const auto& [point, weight] : {std::pair(below, 1.0 - fraction), std::pair(below + 1.0, fraction)}) {
-    if (point >= 0.0 && point < count) {
-      made.first = made.weights.empty() ? static_cast<int>(point) : made.first;
-      made.weights.push_back(weight);
-    }
+// Integral from minus infinity to t of the linear shape function, which is 1 at 0 and decreases to 0 at -1 and 1.
+double linear_integral(double t) {
+  const double s = std::clamp(t, -1.0, 1.0);
+  return s < 0.0 ? 0.5 * (1.0 + s) * (1.0 + s) : 1.0 - 0.5 * (1.0 - s) * (1.0 - s);
+}
+
+AxisWeights interpolation(double coordinate, int count) {
+  const int first = std::clamp(static_cast<int>(std::floor(coordinate)), 0, std::max(count - 2, 0));
+  const double fraction = coordinate - first;
+  // A new point on an old one needs no neighbour, which may have no data.
+  constexpr double rounding = 1e-9;
+  if (fraction < rounding || count == 1) {
+    return {first, {1.0}};
   }
-  return made;
-}
-
-WeightedSums sums_in_one_system(const Raster& raster, const Raster& layout) {
-  return weighted_sums(raster, layout, [](double coordinate, double width, int count) {
-    return width > finer_by ? overlaps(coordinate, width, count) : between_points(coordinate, count);
-  });
-}
-
-// Transforms points of a layout's row to the reference system of a raster.
-void transform_points(const Reprojection& reprojection, const Raster& raster, const Raster& layout, int row,
-                      std::vector<double>& x, std::vector<double>& y) {
-  if (!reprojection.apply(x, y)) {
-    throw UserError(
-        "points of the ground near {}, {} cannot be transformed to the coordinate reference system {}. Reproject the "
-        "raster to {}.",
-        coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs));
+  if (fraction > 1.0 - rounding) {
+    return {first + 1, {1.0}};
   }
+  return {first, {1.0 - fraction, fraction}};
 }
 
-// value_at(x, y), in the coordinates of a raster, at the points of a layout.
-template <class ValueAt>
-Raster values_at_points(const Raster& raster, const Raster& layout, const ValueAt& value_at) {
-  const Reprojection reprojection(layout.crs, raster.crs);
-  Raster result = layout.filled(no_data);
-  const auto columns = static_cast<std::size_t>(layout.columns);
-  for (int row = 0; row < layout.rows; ++row) {
-    std::vector<double> x(columns), y(columns, layout.y_of(row));
-    for (int column = 0; column < layout.columns; ++column) {
-      x[static_cast<std::size_t>(column)] = layout.x_of(column);
-    }
-    transform_points(reprojection, raster, layout, row, x, y);
-    for (std::size_t k = 0; k < columns; ++k) {
-      result.values[result.index(static_cast<int>(k), row)] = value_at(x[k], y[k]);
-    }
+AxisWeights mean(double coordinate, double width, int count) {
+  const double low = coordinate - 0.5 * width, high = coordinate + 0.5 * width;
+  const int first = std::clamp(static_cast<int>(std::floor(low)), 0, count - 1);
+  const int last = std::clamp(static_cast<int>(std::ceil(high)), 0, count - 1);
+  AxisWeights result{first, {}};
+  for (int k = first; k <= last; ++k) {
+    result.weights.push_back((linear_integral(high - k) - linear_integral(low - k)) / width);
   }
   return result;
 }
 
-using Point = std::array<double, 2>;
+bool is_mean(double width) { return width > 1.0 + 1e-9; }
 
-// Corners of the cells of a layout's row, on its lower (0) or upper (1) side, in columns and rows of a raster.
-std::vector<Point> corners_of(const Reprojection& reprojection, const Raster& raster, const Raster& layout, int row,
-                              int side) {
-  const auto count = static_cast<std::size_t>(layout.columns) + 1;
-  std::vector<double> x(count), y(count, layout.y_of(row) + (side - 0.5) * layout.cell_y);
-  for (std::size_t k = 0; k < count; ++k) {
-    x[k] = layout.x + (static_cast<double>(k) - 0.5) * layout.cell_x;
+// Weights of the old points for each new one along an axis, which is given by its first point, spacing and number.
+std::vector<AxisWeights> weights_along(double first, double cell, int count, double new_first, double new_cell,
+                                       int new_count, const WeightsOfPoint& weights_of) {
+  std::vector<AxisWeights> all;
+  for (int k = 0; k < new_count; ++k) {
+    all.push_back(weights_of((new_first + k * new_cell - first) / cell, new_cell / cell, count));
+    THAWSLIDE_ASSERT(all.back().first + static_cast<int>(all.back().weights.size()) <= count,
+                     "point {} needs old points from {} of {}", k, all.back().first, count);
   }
-  transform_points(reprojection, raster, layout, row, x, y);
-  std::vector<Point> corners(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    corners[k] = {(x[k] - raster.x) / raster.cell_x, (y[k] - raster.y) / raster.cell_y};
-  }
-  return corners;
+  return all;
 }
 
-double distance(const Point& one, const Point& other) {
-  return std::max(std::abs(one[0] - other[0]), std::abs(one[1] - other[1]));
-}
+// Sums at each point of a layout, over old points with data: of weights times values, and of weights.
+struct WeightedSums {
+  Raster values, weights;
+};
 
-// Three parts for each of the raster's cells along a side. A nearly whole number of parts per cell avoids aliasing with
-// the pattern of the cells.
-int parts_of(double side) {
-  constexpr double parts_per_cell = 3.0, most_parts = 255.0;
-  return static_cast<int>(std::clamp(parts_per_cell * std::round(side), 1.0, most_parts));
-}
-
-// Sums over the parts of the cell between four corners: lower left, lower right, upper left, upper right.
-std::array<double, 2> sum_over_parts(const Raster& raster, const std::array<Point, 4>& corners) {
-  const int across = parts_of(distance(corners[0], corners[1])), up = parts_of(distance(corners[0], corners[2]));
-  double value = 0.0, weight = 0.0;
-  for (int j = 0; j < up; ++j) {
-    for (int i = 0; i < across; ++i) {
-      const double s = (i + 0.5) / across, t = (j + 0.5) / up;
-      Point point;
-      for (std::size_t a = 0; a < 2; ++a) {
-        point[a] = std::floor(0.5 + (1.0 - t) * ((1.0 - s) * corners[0][a] + s * corners[1][a]) +
-                              t * ((1.0 - s) * corners[2][a] + s * corners[3][a]));
+WeightedSums weighted_sums(const Raster& raster, const Raster& layout, const WeightsOfPoint& weights_of) {
+  const std::vector<AxisWeights> along_x =
+      weights_along(raster.x, raster.cell_x, raster.columns, layout.x, layout.cell_x, layout.columns, weights_of);
+  const std::vector<AxisWeights> along_y =
+      weights_along(raster.y, raster.cell_y, raster.rows, layout.y, layout.cell_y, layout.rows, weights_of);
+  const std::size_t columns = along_x.size();
+  std::vector<double> row_values(columns * static_cast<std::size_t>(raster.rows));
+  std::vector<double> row_weights = row_values;
+  parallel_for(static_cast<std::size_t>(raster.rows), [&](std::size_t row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const AxisWeights& made = along_x[column];
+      const double* old = raster.values.data() + raster.index(made.first, static_cast<int>(row));
+      double value = 0.0, weight = 0.0;
+      for (std::size_t k = 0; k < made.weights.size(); ++k) {
+        if (!std::isnan(old[k])) {
+          value += made.weights[k] * old[k];
+          weight += made.weights[k];
+        }
       }
-      const bool inside = point[0] >= 0.0 && point[1] >= 0.0 && point[0] < raster.columns && point[1] < raster.rows;
-      const double there = inside ? raster.at(static_cast<int>(point[0]), static_cast<int>(point[1])) : no_data;
-      if (!std::isnan(there)) {
-        value += there;
-        weight += 1.0;
-      }
+      row_values[row * columns + column] = value;
+      row_weights[row * columns + column] = weight;
     }
-  }
-  const double parts = static_cast<double>(across) * up;
-  return {value / parts, weight / parts};
-}
-
-WeightedSums sums_between_systems(const Reprojection& reprojection, const Raster& raster, const Raster& layout) {
+  });
   WeightedSums sums{layout.filled(0.0), layout.filled(0.0)};
-  for (int row = 0; row < layout.rows; ++row) {
-    const std::vector<Point> lower = corners_of(reprojection, raster, layout, row, 0);
-    const std::vector<Point> upper = corners_of(reprojection, raster, layout, row, 1);
-    parallel_for(static_cast<std::size_t>(layout.columns), [&](std::size_t column) {
-      const std::size_t k = layout.index(static_cast<int>(column), row);
-      const auto [value, weight] =
-          sum_over_parts(raster, {lower[column], lower[column + 1], upper[column], upper[column + 1]});
-      sums.values.values[k] = value;
-      sums.weights.values[k] = weight;
-    });
-  }
+  parallel_for(along_y.size(), [&](std::size_t row) {
+    const AxisWeights& made = along_y[row];
+    for (std::size_t column = 0; column < columns; ++column) {
+      double value = 0.0, weight = 0.0;
+      for (std::size_t k = 0; k < made.weights.size(); ++k) {
+        const std::size_t from = (static_cast<std::size_t>(made.first) + k) * columns + column;
+        value += made.weights[k] * row_values[from];
+        weight += made.weights[k] * row_weights[from];
+      }
+      sums.values.values[row * columns + column] = value;
+      sums.weights.values[row * columns + column] = weight;
+    }
+  });
   return sums;
 }
 
-// Sums over the area of each new cell.
-WeightedSums sums_over_cells(const Raster& raster, const Raster& layout) {
-  const Reprojection reprojection(layout.crs, raster.crs);
-  return reprojection.changes_nothing() ? sums_in_one_system(raster, layout)
-                                        : sums_between_systems(reprojection, raster, layout);
-}
-
-Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, const std::string& name) {
-  Polygons transformed = polygons;
-  const auto transform = [&](Polyline2& ring) {
-    std::vector<double> x, y;
-    for (const auto& corner : ring) {
-      x.push_back(corner[0]);
-      y.push_back(corner[1]);
-    }
-    if (!reprojection.apply(x, y)) {
-      throw UserError(
-          "the release cannot be transformed to the coordinate reference system {} of the raster. Reproject the raster "
-          "to the system of the DEM.",
-          name);
-    }
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      ring[k] = {x[k], y[k]};
-    }
-  };
-  for (Polygon& polygon : transformed) {
-    transform(polygon.outline);
-    std::ranges::for_each(polygon.holes, transform);
+// Value over weight if the weight exceeds `least`; otherwise NaN.
+Raster means_of(WeightedSums sums, double least) {
+  Raster& result = sums.values;
+  for (std::size_t k = 0; k < result.values.size(); ++k) {
+    const double weight = sums.weights.values[k];
+    result.values[k] = weight > least ? result.values[k] / weight : no_data;
   }
-  return transformed;
+  return std::move(result);
 }
 
 }  // namespace
 
+Raster resampled_layout(const Raster& layout, double distance) {
+  const auto along = [&](double first, double cell, int count, double& new_first, int& new_count) {
+    const double margin = is_mean(distance / cell) ? 0.5 * distance : 0.0;
+    const double available = (count - 1) * cell - 2.0 * margin;
+    new_first = first + margin;
+    new_count = available < 0.0 ? 0 : static_cast<int>(std::floor(available / distance + 1e-9)) + 1;
+  };
+  Raster result;
+  result.cell_x = result.cell_y = distance;
+  result.crs = layout.crs;
+  along(layout.x, layout.cell_x, layout.columns, result.x, result.columns);
+  along(layout.y, layout.cell_y, layout.rows, result.y, result.rows);
+  return result;
+}
+
+Rectangle needed_for(const Raster& new_layout) {
+  return Rectangle{new_layout.x, new_layout.y, new_layout.x_end(), new_layout.y_end()}.widened(0.5 * new_layout.cell_x,
+                                                                                               0.5 * new_layout.cell_y);
+}
+
+Raster resampled(const Raster& raster, const Raster& new_layout) {
+  const WeightedSums sums = weighted_sums(raster, new_layout, [](double coordinate, double width, int count) {
+    return is_mean(width) ? mean(coordinate, width, count) : interpolation(coordinate, count);
+  });
+  const bool is_averaged = is_mean(new_layout.cell_x / raster.cell_x) || is_mean(new_layout.cell_y / raster.cell_y);
+  return means_of(sums, is_averaged ? 0.5 : 1.0 - 1e-9);
+}
+
 bool is_finer(const Raster& raster, const Raster& layout) {
-  const Reprojection reprojection(layout.crs, raster.crs);
-  if (reprojection.changes_nothing()) {
-    return layout.cell_x > finer_by * raster.cell_x || layout.cell_y > finer_by * raster.cell_y;
-  }
-  const Raster middle = layout_of(layout, {layout.columns / 2, layout.rows / 2, 1, 1});
-  const std::vector<Point> lower = corners_of(reprojection, raster, middle, 0, 0);
-  const std::vector<Point> upper = corners_of(reprojection, raster, middle, 0, 1);
-  return distance(lower[0], lower[1]) > finer_by || distance(lower[0], upper[0]) > finer_by;
+  return layout.cell_x > finer_by * raster.cell_x || layout.cell_y > finer_by * raster.cell_y;
 }
 
 Raster averaged(const Raster& raster, const Raster& layout, Missing missing) {
-  WeightedSums sums = sums_over_cells(raster, layout);
+  WeightedSums sums = weighted_sums(raster, layout, overlaps);
   return missing == Missing::zero ? std::move(sums.values)
                                   : means_of(std::move(sums), missing == Missing::unknown ? 0.5 - 1e-9 : 1e-9);
 }
 
-CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs) {
-  const Polygons there = in_system(polygons, Reprojection(crs, raster.crs), name_of(raster.crs));
+CoveredRaster covered_part(const Raster& raster, const Polygons& polygons) {
   constexpr double half = 0.499999;  // of a cell, so that rounding moves no corner out of the outermost cells
   const Rectangle all = span_of_points(raster).widened(half * raster.cell_x, half * raster.cell_y);
-  const Polygons inside = intersection_of(there, {box_polygon(all)});
+  const Polygons inside = intersection_of(polygons, {box_polygon(all)});
   if (inside.empty()) {
     return {};
   }
@@ -252,18 +226,14 @@ Gradient gradient_at(const Raster& raster, int column, int row) {
 }
 
 Raster sampled(const Raster& raster, const Raster& layout, Missing missing) {
-  return is_finer(raster, layout)
-             ? averaged(raster, layout, missing)
-             : values_at_points(raster, layout, [&](double x, double y) { return bilinear(raster, x, y, missing); });
-}
-
-Raster nearest(const Raster& raster, const Raster& layout) {
-  return values_at_points(raster, layout, [&](double x, double y) {
-    const double i = std::floor((x - raster.x) / raster.cell_x + 0.5);
-    const double j = std::floor((y - raster.y) / raster.cell_y + 0.5);
-    const bool is_inside = i >= 0.0 && j >= 0.0 && i < raster.columns && j < raster.rows;
-    return is_inside ? raster.at(static_cast<int>(i), static_cast<int>(j)) : no_data;
+  if (is_finer(raster, layout)) {
+    return averaged(raster, layout, missing);
+  }
+  Raster result = layout.filled(no_data);
+  for_each_point(result, [&](int column, int row, double& value) {
+    value = bilinear(raster, layout.x_of(column), layout.y_of(row), missing);
   });
+  return result;
 }
 
 Raster above_ground(const Raster& surface, const Raster& ground) {

@@ -1,11 +1,16 @@
-// Sampling of rasters at the points of another one, means over their cells, and gradients.
+// Resampling of rasters at the points of another one, means over their cells, and gradients. All rasters are in one
+// reference system.
 //
-// A value v_k of a raster applies to its whole cell; A_k is the area that this cell shares with the cell of a new
-// point:
+// Along each axis, a new value is a weighted sum of old ones, so only the requested points are computed. A DEM is a
+// surface: if the new spacing is at most the old one, its heights are interpolated linearly. Points with a larger
+// spacing get the mean of the linear interpolation over an interval of the new spacing, centred on each. Both reproduce
+// a plane exactly.
+//
+// Other maps are averaged over cells. A value v_k of a raster applies to its whole cell; A_k is the area that this cell
+// shares with the cell of a new point:
 //    mean = sum v_k A_k / sum A_k
 // The sum of mean times area over the new cells therefore equals that of the raster (a volume, if the values are
-// thicknesses). Within one reference system the areas are exact. For another system, the cell of a new point is divided
-// into parts smaller than the raster's cells. Each part has the value of the cell that contains its centre.
+// thicknesses).
 #pragma once
 
 #include "base/raster_sampling.hpp"
@@ -13,18 +18,26 @@
 
 namespace thawslide::gis {
 
+// Points `distance` metres apart that fit in a whole raster: from its first point if they are interpolated, from half a
+// distance beyond it if they are means. No columns or rows if none fit.
+[[nodiscard]] Raster resampled_layout(const Raster& layout, double distance);
+
+// Area in which old points must be known for the new ones.
+[[nodiscard]] Rectangle needed_for(const Raster& new_layout);
+
+// Heights at the points of the new layout. NaN if an old point that an interpolation needs has no data, or if half of
+// those in a mean have none.
+[[nodiscard]] Raster resampled(const Raster& raster, const Raster& new_layout);
+
 // dz/dx and dz/dy at a point by central differences; one-sided if a neighbour has no data; 0 if both have none.
 struct Gradient {
   double x = 0.0, y = 0.0;
 };
 [[nodiscard]] Gradient gradient_at(const Raster& raster, int column, int row);
 
-// Samples a raster of any reference system at the points of a layout. Values are bilinear between its points, or the
-// mean over the cell around a point if its own points are closer together.
+// Values of a map at the points of a layout: bilinear between its points, or the mean over the cell around a point if
+// its own points are closer together.
 [[nodiscard]] Raster sampled(const Raster& raster, const Raster& layout, Missing missing);
-
-// Value of the nearest point at each point of a layout; NaN outside the cells of the raster.
-[[nodiscard]] Raster nearest(const Raster& raster, const Raster& layout);
 
 // Heights of a surface above the ground at its own points; NaN without a ground.
 [[nodiscard]] Raster above_ground(const Raster& surface, const Raster& ground);
@@ -43,8 +56,7 @@ struct CoveredRaster {
   Raster values;    // around the polygons; without points if the raster does not reach them
   Raster fraction;  // covered fraction of each of its cells
 };
-// `crs`: of the polygons, as WKT.
-[[nodiscard]] CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs);
+[[nodiscard]] CoveredRaster covered_part(const Raster& raster, const Polygons& polygons);
 
 // Means of a finer raster within polygons, at the points of a layout.
 struct CoveredMeans {

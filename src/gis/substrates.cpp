@@ -10,8 +10,6 @@
 #include "gis/features.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
-#include "gis/reference_system.hpp"
-#include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {
@@ -57,20 +55,12 @@ void make_whole(const std::string& file, Raster& codes) {
   });
 }
 
-// Codes of a file in the ground's coordinates, around the domain; NaN: none. A raster in another reference system is
-// sampled at the ground's points by nearest neighbour.
+// Codes of a file in the ground's coordinates, around the domain; NaN: none.
 Raster read_codes(const Located<std::string>& file, const Raster& ground, const Rectangle& domain,
                   std::vector<std::string>& warnings) {
   Raster codes = read_map({file, Quantity::code, ground.crs, domain, "the domain"}, warnings);
-  return at_place(file.place, [&] {
-    make_whole(file.value, codes);
-    if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
-      return codes;
-    }
-    warnings.push_back(fmt::format("note: the codes of {}, which is in {}, were resampled to the points of the DEM",
-                                   name_of_file(file.value), name_of(codes.crs)));
-    return at_place(file.value, [&] { return nearest(codes, ground); });
-  });
+  at_place(file.place, [&] { make_whole(file.value, codes); });
+  return codes;
 }
 
 // Warning about the part of the domain to which a raster of codes gives no substrate; empty if there is none.

@@ -46,7 +46,7 @@ TEST(PitsTest, LoadingTheSiteWarnsOfThem) {
   const SiteAndWarnings loaded = load_site(parameters);
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_EQ(loaded.warnings[0].substr(0, 115),
-            "2 points of dem.tif are exactly 0 m among heights of 1365 to 1962 m, such as (400550, 300350): a hole "
+            "2 points of dem.tif are exactly 0 m among heights of 1295 to 1955 m, such as (400550, 300350): a hole "
             "without data?");
 }
 
