@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <ranges>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -20,6 +21,7 @@ namespace thawslide::gis {
 
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
 constexpr double rough_fraction = 0.86;    // quantile of the tiles: noise that a seventh of them exceeds
@@ -53,7 +55,12 @@ double variance_of_cell(double spacing, double cell) {
   return spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
 }
 
-double quantile(std::vector<double>& values, double fraction) {
+// Quantile of the values that are not NaN; NaN if they are fewer than `least`.
+double quantile(std::vector<double> values, double fraction, std::size_t least = 1) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.size() < least) {
+    return unknown;
+  }
   const auto index = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + index, values.end());
   return values[static_cast<std::size_t>(index)];
@@ -61,18 +68,14 @@ double quantile(std::vector<double>& values, double fraction) {
 
 // Only the points within the rectangle.
 Raster points_within(const Raster& raster, const Rectangle& rectangle) {
-  constexpr double rounding = 1e-9;
-  const auto first = [](double low, double start, double cell) {
-    return std::max(0, static_cast<int>(std::ceil((low - start) / cell - rounding)));
-  };
-  const auto end = [](double high, double start, double cell, int count) {
-    return std::min(count, static_cast<int>(std::floor((high - start) / cell + rounding)) + 1);
+  const auto along = [](double low, double high, double start, double cell, int count, int& first, int& number) {
+    constexpr double rounding = 1e-9;
+    first = std::max(0, static_cast<int>(std::ceil((low - start) / cell - rounding)));
+    number = std::max(0, std::min(count, static_cast<int>(std::floor((high - start) / cell + rounding)) + 1) - first);
   };
   PointWindow window;
-  window.first_column = first(rectangle.min_x, raster.x, raster.cell_x);
-  window.first_row = first(rectangle.min_y, raster.y, raster.cell_y);
-  window.columns = std::max(0, end(rectangle.max_x, raster.x, raster.cell_x, raster.columns) - window.first_column);
-  window.rows = std::max(0, end(rectangle.max_y, raster.y, raster.cell_y, raster.rows) - window.first_row);
+  along(rectangle.min_x, rectangle.max_x, raster.x, raster.cell_x, raster.columns, window.first_column, window.columns);
+  along(rectangle.min_y, rectangle.max_y, raster.y, raster.cell_y, raster.rows, window.first_row, window.rows);
   return window.columns > 0 && window.rows > 0 ? part_of(raster, window) : Raster{};
 }
 
@@ -81,54 +84,49 @@ struct Step {
 };
 constexpr std::array<Step, 4> directions{Step{1, 0}, Step{0, 1}, Step{1, 1}, Step{1, -1}};
 
-// Adds the deviation if the line of points lies in the raster and is known.
-void add_deviation(const Raster& raster, int column, int row, const Step& step, std::vector<double>& deviations) {
-  constexpr int reach = points_of_fit / 2;
-  const auto is_in = [&](int k) {
-    return column + k * step.column >= 0 && column + k * step.column < raster.columns && row + k * step.row >= 0 &&
-           row + k * step.row < raster.rows;
-  };
-  if (!is_in(-reach) || !is_in(reach)) {
-    return;
-  }
-  const auto at = [&](int k) { return raster.at(column + k * step.column, row + k * step.row); };
-  // Computed relative to the centre's height, so that a high plane causes no round-off.
-  double deviation = 0.0;
-  for (int k = 1; k <= reach; ++k) {
-    deviation += deviation_weights[static_cast<std::size_t>(k)] * ((at(k) - at(0)) + (at(-k) - at(0)));
-  }
-  if (!std::isnan(deviation)) {
-    deviations.push_back(std::abs(deviation));
-  }
-}
-
 struct Tile {
   int first_column, end_column, first_row, end_row;
+
+  // Median of |value_at(column, row)| over the points; NaN if fewer than 16 are known.
+  template <class ValueAt>
+  [[nodiscard]] double median_of(const ValueAt& value_at) const {
+    std::vector<double> values;
+    for (int row = first_row; row < end_row; ++row) {
+      for (int column = first_column; column < end_column; ++column) {
+        values.push_back(std::abs(value_at(column, row)));
+      }
+    }
+    return quantile(std::move(values), 0.5, least_of_tile);
+  }
 };
 
-// Index at which the k-th of `parts` equal parts of `points` begins.
-int edge(int points, int k, int parts) { return static_cast<int>(static_cast<std::int64_t>(points) * k / parts); }
+double known_at(const Raster& raster, int column, int row) {
+  const bool is_inside = column >= 0 && column < raster.columns && row >= 0 && row < raster.rows;
+  return is_inside ? raster.at(column, row) : unknown;
+}
 
 // Noise in the directions in which it is smallest and second smallest; NaN if the tile has too few known points.
 std::array<double, 2> noise_of_tile(const Raster& raster, const Tile& part) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> found;
-  for (const Step step : directions) {
-    std::vector<double> deviations;
-    for (int row = part.first_row; row < part.end_row; ++row) {
-      for (int column = part.first_column; column < part.end_column; ++column) {
-        add_deviation(raster, column, row, step, deviations);
+  std::array<double, directions.size()> found;
+  std::ranges::transform(directions, found.begin(), [&](const Step& step) {
+    return part.median_of([&](int column, int row) {
+      // Computed relative to the centre's height, so that a high plane causes no round-off.
+      const auto rise = [&](int k) {
+        return known_at(raster, column + k * step.column, row + k * step.row) - raster.at(column, row);
+      };
+      double deviation = 0.0;
+      for (int k = 1; k <= points_of_fit / 2; ++k) {
+        deviation += deviation_weights[static_cast<std::size_t>(k)] * (rise(k) + rise(-k));
       }
-    }
-    if (deviations.size() >= least_of_tile) {
-      found.push_back(quantile(deviations, 0.5) / (median_of_unit * rms_of_deviation));
-    }
-  }
-  if (found.size() < 2) {
+      return deviation;
+    });
+  });
+  const auto last = std::remove_if(found.begin(), found.end(), [](double median) { return std::isnan(median); });
+  if (last - found.begin() < 2) {
     return {unknown, unknown};
   }
-  std::partial_sort(found.begin(), found.begin() + 2, found.end());
-  return {found[0], found[1]};
+  std::sort(found.begin(), last);
+  return {found[0] / (median_of_unit * rms_of_deviation), found[1] / (median_of_unit * rms_of_deviation)};
 }
 
 // Rms slope, from the medians in four directions. The mean of the minimum and the maximum is their geometric one, with
@@ -136,21 +134,14 @@ std::array<double, 2> noise_of_tile(const Raster& raster, const Tile& part) {
 // a cliff, are not bumps.
 double slope_of_tile(const Raster& raster, const Tile& part) {
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
-  for (const Step step : directions) {
-    std::vector<double> slopes;
+  for (const Step& step : directions) {
     const double distance = std::hypot(step.column * raster.cell_x, step.row * raster.cell_y);
-    for (int row = std::max(part.first_row, -step.row); row < std::min(part.end_row, raster.rows - step.row); ++row) {
-      for (int column = part.first_column; column < std::min(part.end_column, raster.columns - step.column); ++column) {
-        const double slope = (raster.at(column + step.column, row + step.row) - raster.at(column, row)) / distance;
-        if (!std::isnan(slope)) {
-          slopes.push_back(std::abs(slope));
-        }
-      }
+    const double rms = part.median_of([&](int column, int row) {
+      return (known_at(raster, column + step.column, row + step.row) - raster.at(column, row)) / distance;
+    }) / median_of_unit;
+    if (std::isnan(rms)) {
+      return unknown;
     }
-    if (slopes.size() < least_of_tile) {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-    const double rms = quantile(slopes, 0.5) / median_of_unit;
     least = std::min(least, rms);
     largest = std::max(largest, rms);
   }
@@ -162,8 +153,12 @@ double slope_of_tile(const Raster& raster, const Tile& part) {
 template <class OfTile>
 auto of_tiles(const Raster& raster, const OfTile& of_tile) {
   const int across = std::max(1, raster.columns / tile_size), along = std::max(1, raster.rows / tile_size);
-  using Value = decltype(of_tile(raster, Tile{}));
-  std::vector<Value> values(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
+  std::vector<decltype(of_tile(raster, Tile{}))> values(static_cast<std::size_t>(across) *
+                                                        static_cast<std::size_t>(along));
+  // Index at which the k-th of equal parts begins.
+  const auto edge = [](int points, int k, int parts) {
+    return static_cast<int>(static_cast<std::int64_t>(points) * k / parts);
+  };
   parallel_for(values.size(), [&](std::size_t k) {
     const int i = static_cast<int>(k) % across, j = static_cast<int>(k) / across;
     values[k] = of_tile(raster, Tile{edge(raster.columns, i, across), edge(raster.columns, i + 1, across),
@@ -172,57 +167,13 @@ auto of_tiles(const Raster& raster, const OfTile& of_tile) {
   return values;
 }
 
-// Quantile of the finite values; 0 if there are none.
-double quantile_of_known(std::vector<double> values, double fraction) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
-               values.end());
-  return values.empty() ? 0.0 : quantile(values, fraction);
-}
-
-// Noise of the tiles in the direction in which it is smallest (0) or second smallest (1).
+// Noise of the tiles in the direction in which it is smallest (0) or second smallest (1); 0 if none has enough points.
 double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size_t direction, double fraction) {
   std::vector<double> values;
-  std::ranges::transform(tiles, std::back_inserter(values),
-                         [&](const std::array<double, 2>& tile) { return tile[direction]; });
-  return quantile_of_known(std::move(values), fraction);
+  std::ranges::transform(tiles, std::back_inserter(values), [&](const auto& tile) { return tile[direction]; });
+  const double noise = quantile(std::move(values), fraction);
+  return std::isnan(noise) ? 0.0 : noise;
 }
-
-// Slope due to noise and bumps. Bumps explained by noise count as noise, because the two are measured differently, and
-// a thalweg slightly increases the second one.
-double slope_of(double noise, double bumps) {
-  constexpr double explained = 1.25;
-  return bumps <= explained * noise ? noise : bumps;
-}
-
-// Noise and bumps of a rectangle, filtered.
-struct Filtered {
-  const Raster& waves;
-  const Rectangle& rectangle;
-  double noise, spacing, cell;
-
-  [[nodiscard]] double slope(double width) const {
-    return slope_of(noise_slope(noise, spacing, cell, width), bump_slope(waves, rectangle, cell, width));
-  }
-  // Smallest width, from the width against noise upwards, that leaves little of the bumps, or the maximum.
-  [[nodiscard]] double fitting_width() const {
-    const double width = gis::fitting_width(noise, spacing, cell);
-    if (slope(width) <= largest_slope) {
-      return width;
-    }
-    constexpr int steps = 15;
-    const auto width_at = [&](int k) { return std::max(width, (0.5 + 0.1 * k) * spacing); };
-    int low = 0, high = steps;
-    while (low < high) {
-      const int middle = (low + high) / 2;
-      if (slope(width_at(middle)) <= largest_slope) {
-        high = middle;
-      } else {
-        low = middle + 1;
-      }
-    }
-    return width_at(low);
-  }
-};
 
 }  // namespace
 
@@ -258,7 +209,8 @@ double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double 
   }
   const double of_cell = std::sqrt(variance_of_cell(spacing_of(short_waves), cell));
   const Raster filtered = points_within(smoothed(short_waves, std::max(width, of_cell)), rectangle);
-  return quantile_of_known(of_tiles(filtered, slope_of_tile), 0.75);
+  const double slope = quantile(of_tiles(filtered, slope_of_tile), 0.75);
+  return std::isnan(slope) ? 0.0 : slope;
 }
 
 double noise_slope(double rms, double spacing, double cell, double width) {
@@ -304,38 +256,40 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   const Raster waves = short_waves(raster, rectangle, cell);
   found.bump_length = bump_length(found.spacing, cell);
   found.bump_slope = bump_slope(waves, rectangle, cell, 0.0);
-  const Filtered filtered{waves, rectangle, found.noise, found.spacing, cell};
-  found.width = smooth.is_auto ? filtered.fitting_width() : smooth.number;
-  found.remaining_slope = filtered.slope(found.width);
+  // Bumps explained by noise count as noise, because the two are measured differently, and a thalweg slightly increases
+  // the second one.
+  const auto remaining_slope = [&](double width) {
+    constexpr double explained = 1.25;
+    const double noise = noise_slope(found.noise, found.spacing, cell, width);
+    const double bumps = bump_slope(waves, rectangle, cell, width);
+    return bumps <= explained * noise ? noise : bumps;
+  };
+  found.width = smooth.number;
+  if (smooth.is_auto) {
+    // The smallest width, from the width against noise upwards, that leaves little of the bumps, or the maximum.
+    constexpr int steps = 15;
+    const double least = fitting_width(found.noise, found.spacing, cell);
+    const auto width_at = [&](int k) { return std::max(least, (0.5 + 0.1 * k) * found.spacing); };
+    const auto is_rough = [&](double width) { return remaining_slope(width) > largest_slope; };
+    const auto all = std::views::iota(0, steps);
+    found.width =
+        !is_rough(least)
+            ? least
+            : width_at(static_cast<int>(
+                  std::ranges::partition_point(all, [&](int k) { return is_rough(width_at(k)); }) - all.begin()));
+  }
+  found.remaining_slope = remaining_slope(found.width);
   found.apparent_friction = apparent_friction(found.remaining_slope);
   found.narrow_valley = narrow_valley(found.width);
   return found;
 }
-
-namespace {
-
-// Cells that follow the terrain average it. On terrain with bumps and without a filter of their size, each cell has its
-// own ground, unless cells are as small as the distance of the points.
-std::string note_of_ground(const config::Roughness& found) {
-  constexpr double slope_of_smooth_ground = 0.01;
-  const double resolved = std::max(found.width, found.spacing);
-  if (found.bump_slope < slope_of_smooth_ground || resolved >= found.cell * (1.0 - 1e-9)) {
-    return "";
-  }
-  return fmt::format(
-      "note: terrain.smooth is {:g} m and grid.cell {:g} m: cells larger than the filter smooth the ground further. To "
-      "compare runs on several cells, set terrain.smooth to the largest of them in each run.",
-      found.width, found.cell);
-}
-
-}  // namespace
 
 std::string roughness_warning(const config::Case& parameters, const config::Site& site) {
   constexpr double much_friction = 0.05;
   const config::Roughness& found = *site.roughness;
   const bool is_auto = parameters.terrain.smooth.is_auto;
   if (is_auto ? found.remaining_slope <= largest_slope : found.apparent_friction <= much_friction) {
-    return note_of_ground(found);
+    return "";
   }
   const std::string remedy = is_auto
                                  ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."

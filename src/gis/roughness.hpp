@@ -65,8 +65,7 @@ inline constexpr double largest_slope = 0.06;  // remaining slope for which a wi
                                              const config::NumberOrAuto& smooth,
                                              const std::vector<Rectangle>& bodies = {});
 
-// Warning about noise that remains and adds to the friction, or a note about a filter narrower than a cell that follows
-// the terrain; empty if there is neither.
+// Warning about noise that remains and adds to the friction; empty if there is none.
 [[nodiscard]] std::string roughness_warning(const config::Case& parameters, const config::Site& site);
 
 // Width between the walls, at one level, of a V valley with walls of 45 degrees that loses 3 % of its wedge effect by

@@ -41,16 +41,6 @@ def test_new_writes_the_filter(
         assert tomllib.loads((case / "case.toml").read_text())["terrain"]["smooth"] == width
 
 
-def test_a_filter_narrower_than_a_cell_that_follows_the_terrain_is_noted(thawslide: Program, rough_case: Path) -> None:
-    def notes(*words: object) -> list[str]:
-        return [note for note in thawslide.json("check", rough_case, *words)["warnings"] if "ground further" in note]
-
-    (note,) = notes(*sets(grid__cell=20, terrain__smooth=19.5))
-    assert note.startswith("note: terrain.smooth is 19.5 m and grid.cell 20 m: cells larger than the filter")
-    assert notes(*sets(grid__cell=20, terrain__smooth=20)) == []
-    assert notes(*sets(grid__cell=10, terrain__smooth=5)) == []  # cells of the distance of the points
-
-
 def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, rough_case: Path) -> None:
     printed = thawslide.ok("check", rough_case)
     reported = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
