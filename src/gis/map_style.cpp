@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <sstream>
+#include <string_view>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -20,54 +21,30 @@ constexpr const char* opening = "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd
 
 std::string escaped(const std::string& text) { return released(CPLEscapeString(text.c_str(), -1, CPLES_XML)); }
 
-std::string option(const char* name, const std::string& value) {
-  return fmt::format("        <Option type=\"QString\" name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
-}
-
 std::string rgba(const Color& color, double opacity) {
   return fmt::format("{},{},{},{}", color[0], color[1], color[2], std::lround(255.0 * opacity));
 }
 
-std::string symbol_layer(const VectorStyle& style) {
-  const std::string width = fmt::format("{:g}", style.width), solid = rgba(style.color, 1.0);
-  const auto layer = [](const char* kind, const std::string& options) {
-    return fmt::format(
-        "      <layer class=\"{}\" enabled=\"1\" locked=\"0\" pass=\"0\">\n       <Option type=\"Map\">\n{}", kind,
-        options);
-  };
-  switch (style.kind) {
-    case LayerKind::polygons:
-      return layer("SimpleFill", option("color", rgba(style.color, style.opacity)) + option("outline_color", solid) +
-                                     option("outline_style", "solid") + option("outline_width", width) +
-                                     option("outline_width_unit", "MM") + option("style", "solid"));
-    case LayerKind::lines:
-      return layer("SimpleLine", option("line_color", solid) + option("line_style", "solid") +
-                                     option("line_width", width) + option("line_width_unit", "MM"));
-    case LayerKind::points:
-      return layer("SimpleMarker", option("color", solid) + option("name", "circle") +
-                                       option("outline_color", "0,0,0,255") + option("size", width) +
-                                       option("size_unit", "MM"));
-  }
-  return "";
-}
+// Symbol of a kind of layer, its number as a type of geometry, and options, with the colours of fill and line and the
+// width.
+struct Symbol {
+  const char *kind, *layer;
+  int geometry;
+  const char* options;
+};
+constexpr Symbol symbols[] = {
+    {"fill", "SimpleFill", 2,
+     "color={0} outline_color={1} outline_style=solid outline_width={2:g} outline_width_unit=MM style=solid"},
+    {"line", "SimpleLine", 1, "line_color={1} line_style=solid line_width={2:g} line_width_unit=MM"},
+    {"marker", "SimpleMarker", 0, "color={1} name=circle outline_color=0,0,0,255 size={2:g} size_unit=MM"},
+};
 
 // "below 1 m", "1 to 2 m", "above 2 m".
 std::string class_label(double low, double high, const RasterStyle& style) {
-  const std::string unit = style.unit.empty() ? "" : " " + style.unit;
-  const auto number = [&](double value) { return fmt::format("{:g}", value / style.unit_size); };
-  if (!std::isfinite(high)) {
-    return fmt::format("above {}{}", number(low), unit);
-  }
-  return std::isfinite(low) ? fmt::format("{} to {}{}", number(low), number(high), unit)
-                            : fmt::format("below {}{}", number(high), unit);
-}
-
-std::string labels(const std::string& attribute) {
-  return fmt::format(
-      " <labeling type=\"simple\">\n  <settings calloutType=\"simple\">\n"
-      "   <text-style fieldName=\"{}\" isExpression=\"0\" fontSize=\"9\" textColor=\"0,0,0,255\"/>\n"
-      "  </settings>\n </labeling>\n",
-      escaped(attribute));
+  const double size = style.unit_size;
+  return !std::isfinite(high) ? fmt::format("above {:g} {}", low / size, style.unit)
+         : std::isfinite(low) ? fmt::format("{:g} to {:g} {}", low / size, high / size, style.unit)
+                              : fmt::format("below {:g} {}", high / size, style.unit);
 }
 
 // Colour maps of Matplotlib and ColorBrewer in nine colours. Those of ColorBrewer begin above their lightest colour.
@@ -100,27 +77,16 @@ Color color_at(const Palette& palette, double fraction) {
   return color;
 }
 
-// Classes between limits in the unit of the label, and beyond the last one.
-std::vector<ColorClass> classes_between(const std::vector<double>& limits, double unit_size, const Palette& palette) {
-  std::vector<ColorClass> classes;
-  const auto last = static_cast<double>(limits.size());
-  for (std::size_t k = 0; k <= limits.size(); ++k) {
-    classes.push_back(
-        {k < limits.size() ? limits[k] * unit_size : infinity, color_at(palette, static_cast<double>(k) / last)});
-  }
-  return classes;
-}
-
-RasterStyle positive(const std::vector<double>& limits, const char* unit, double unit_size, const Palette& palette) {
-  return {classes_between(limits, unit_size, palette), 0.0, unit, unit_size, true};
-}
-
-RasterStyle change_of_elevation() {
-  RasterStyle style{classes_between({-20, -10, -5, -2, -0.5, 0.5, 2, 5, 10, 20}, 1.0, red_blue), -infinity, "m", 1.0,
-                    false};
-  style.classes[style.classes.size() / 2].is_drawn = false;  // around 0
-  return style;
-}
+// Classes of maps, between limits in the unit of the label and beyond the last one.
+struct MapClasses {
+  const char* maps;  // names between spaces
+  std::vector<double> limits;
+  const char* unit;
+  double unit_size;
+  const Palette& palette;
+  double lowest = 0.0;
+  bool hides_zero = true;
+};
 
 }  // namespace
 
@@ -154,39 +120,54 @@ void write_raster_style(const std::string& file, const RasterStyle& style) {
 }
 
 std::string vector_style(const VectorStyle& style) {
-  constexpr const char* symbols[] = {"fill", "line", "marker"};
-  constexpr int geometries[] = {2, 1, 0};
-  const auto kind = static_cast<std::size_t>(style.kind);
+  const Symbol& symbol = symbols[static_cast<std::size_t>(style.kind)];
+  std::istringstream words(
+      fmt::format(fmt::runtime(symbol.options), rgba(style.color, style.opacity), rgba(style.color, 1.0), style.width));
+  std::string options, labels;
+  for (std::string name, value; std::getline(words, name, '=') && std::getline(words, value, ' ');) {
+    options += fmt::format("        <Option type=\"QString\" name=\"{}\" value=\"{}\"/>\n", name, value);
+  }
+  if (!style.label.empty()) {
+    labels = fmt::format(
+        " <labeling type=\"simple\">\n  <settings calloutType=\"simple\">\n"
+        "   <text-style fieldName=\"{}\" isExpression=\"0\" fontSize=\"9\" textColor=\"0,0,0,255\"/>\n"
+        "  </settings>\n </labeling>\n",
+        escaped(style.label));
+  }
   return fmt::format(
       "{}<qgis version=\"3.22\" styleCategories=\"Symbology|Labeling\" "
       "labelsEnabled=\"{}\">\n <renderer-v2 type=\"singleSymbol\" forceraster=\"0\" "
       "enableorderby=\"0\">\n  <symbols>\n   <symbol type=\"{}\" name=\"0\" alpha=\"1\" "
-      "clip_to_extent=\"1\">\n{}       </Option>\n      </layer>\n   </symbol>\n  </symbols>\n"
+      "clip_to_extent=\"1\">\n      <layer class=\"{}\" enabled=\"1\" locked=\"0\" pass=\"0\">\n"
+      "       <Option type=\"Map\">\n{}       </Option>\n      </layer>\n   </symbol>\n  </symbols>\n"
       " </renderer-v2>\n{} <layerGeometryType>{}</layerGeometryType>\n</qgis>\n",
-      opening, style.label.empty() ? 0 : 1, symbols[kind], symbol_layer(style),
-      style.label.empty() ? "" : labels(style.label), geometries[kind]);
+      opening, labels.empty() ? 0 : 1, symbol.kind, symbol.layer, options, labels, symbol.geometry);
 }
 
 RasterStyle style_of_map(const std::string& name) {
-  const RasterStyle thickness = positive({0.5, 1, 2, 5, 10, 20, 50, 100}, "m", 1.0, yellow_orange_red);
-  const std::map<std::string, RasterStyle> styles{
-      {"release", thickness},
-      {"max_thickness", thickness},
-      {"final_thickness", thickness},
-      {"max_speed", positive({5, 10, 20, 30, 40, 60, 80, 100}, "m/s", 1.0, viridis)},
-      {"max_momentum_flux", positive({10, 100, 1e3, 1e4, 1e5}, "m3/s2", 1.0, viridis)},
-      {"max_pressure", positive({3, 10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, magma_reversed)},
-      {"max_pressure_time", {classes_between({5, 10, 20, 30, 60, 90, 120, 180}, 1.0, cividis), 0.0, "s", 1.0, false}},
-      {"arrival_time", {classes_between({5, 10, 20, 30, 60, 90, 120, 180}, 1.0, cividis), 0.0, "s", 1.0, false}},
-      {"elevation_change", change_of_elevation()},
-      {"max_basal_temperature",
-       {classes_between({-20, -10, -5, -1, 0, 20, 100, 300}, 1.0, plasma), -infinity, "°C", 1.0, false}},
-      {"max_melt", positive({1, 2, 5, 10, 20, 50, 100, 1000}, "mm", 1e-3, yellow_green_blue)},
-      {"max_pore_pressure", positive({10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, viridis)},
+  static const MapClasses all[] = {
+      {" release max_thickness final_thickness ", {0.5, 1, 2, 5, 10, 20, 50, 100}, "m", 1.0, yellow_orange_red},
+      {" max_speed ", {5, 10, 20, 30, 40, 60, 80, 100}, "m/s", 1.0, viridis},
+      {" max_momentum_flux ", {10, 100, 1e3, 1e4, 1e5}, "m3/s2", 1.0, viridis},
+      {" max_pressure ", {3, 10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, magma_reversed},
+      {" max_pressure_time arrival_time ", {5, 10, 20, 30, 60, 90, 120, 180}, "s", 1.0, cividis, 0.0, false},
+      {" elevation_change ", {-20, -10, -5, -2, -0.5, 0.5, 2, 5, 10, 20}, "m", 1.0, red_blue, -infinity, false},
+      {" max_basal_temperature ", {-20, -10, -5, -1, 0, 20, 100, 300}, "°C", 1.0, plasma, -infinity, false},
+      {" max_melt ", {1, 2, 5, 10, 20, 50, 100, 1000}, "mm", 1e-3, yellow_green_blue},
+      {" max_pore_pressure ", {10, 30, 100, 300, 1000, 3000}, "kPa", 1e3, viridis},
   };
-  const auto found = styles.find(name);
-  THAWSLIDE_ASSERT(found != styles.end(), "no style of the map {}", name);
-  return found->second;
+  const auto* const found = std::ranges::find_if(all, [&](const MapClasses& each) {
+    return std::string_view(each.maps).find(" " + name + " ") != std::string::npos;
+  });
+  THAWSLIDE_ASSERT(found != std::end(all), "no style of the map {}", name);
+  RasterStyle style{{}, found->lowest, found->unit, found->unit_size, found->hides_zero};
+  const std::size_t last = found->limits.size();
+  for (std::size_t k = 0; k <= last; ++k) {
+    style.classes.push_back({k < last ? found->limits[k] * found->unit_size : infinity,
+                             color_at(found->palette, static_cast<double>(k) / static_cast<double>(last)),
+                             name != "elevation_change" || 2 * k != last});  // not around 0
+  }
+  return style;
 }
 
 RasterStyle hazard_style_of_map(const std::string& name) {

@@ -22,7 +22,7 @@ struct ColorClass {
 struct RasterStyle {
   std::vector<ColorClass> classes;  // by increasing upper limit
   double lowest = 0.0;              // lower limit of the first class; -infinity: none
-  std::string unit;                 // of the labels; empty: none
+  std::string unit;                 // of the labels
   double unit_size = 1.0;           // in units of the map
   bool hides_zero = false;          // values of 0 and below are transparent
 };

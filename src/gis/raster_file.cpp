@@ -7,8 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
+#include <regex>
 
+#include "base/atomic_file.hpp"
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
@@ -30,42 +31,20 @@ struct RasterFile::Handle {
 
 namespace {
 
-constexpr std::size_t head_bytes = 4096;  // of a file, which include the header of an ASCII grid
-
-std::string head_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string head(head_bytes, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-  return head;
-}
-
-// First value of an ASCII grid, after lines of a keyword and a number; empty if the text is no ASCII grid.
-std::string first_value(const std::string& head) {
-  std::istringstream words(lower_case(head));
-  std::string word, number;
-  bool is_grid = false;
-  while (words >> word) {
-    const bool is_keyword = std::isalpha(static_cast<unsigned char>(word.front())) != 0 && word.rfind("nan", 0) != 0;
-    if (!is_keyword) {
-      return is_grid ? word : "";
-    }
-    is_grid = is_grid || word == "ncols" || word == "nrows";
-    words >> number;
-  }
-  return "";
-}
-
 // Known cause for which GDAL cannot read a file, with its remedy; empty if there is none.
 std::string cause_of_unreadable_raster(const std::string& file) {
-  const std::string head = head_of(file);
+  std::string head(4096, '\0');  // includes the header of an ASCII grid
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   if (head.rfind("\xEF\xBB\xBF", 0) == 0) {
     return fmt::format(
         "the file begins with a UTF-8 byte order mark, which an ASCII grid may not have. Remove it: sed -i "
         "'1s/^\\xEF\\xBB\\xBF//' {}",
         shell_quote(file));
   }
-  if (first_value(head).rfind("nan", 0) == 0) {
+  // After lines of a keyword and a number.
+  static const std::regex begins_with_nan(R"((\s*[a-z]\w*\s+[-+.\d]\S*)+\s+nan\s)", std::regex::icase);
+  if (std::regex_search(head.c_str(), begins_with_nan, std::regex_constants::match_continuous)) {
     return fmt::format(
         "the first value of the ASCII grid is nan, which GDAL does not read there. Write the number of NODATA_value in "
         "its place, for example -9999: sed -i 's/nan/-9999/gi' {}",
@@ -162,16 +141,6 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   return layout;
 }
 
-double nodata_of(GDALRasterBand& band, bool& has) {
-  int given = 0;
-  const GDALDataType type = band.GetRasterDataType();
-  const double value = type == GDT_Int64    ? static_cast<double>(band.GetNoDataValueAsInt64(&given))
-                       : type == GDT_UInt64 ? static_cast<double>(band.GetNoDataValueAsUInt64(&given))
-                                            : band.GetNoDataValue(&given);
-  has = given != 0;
-  return value;
-}
-
 // Band with the values; a second one may contain the opacity. `alpha`: null without one.
 GDALRasterBand* band_of_values(const std::string& file, GDALDataset& dataset, GDALRasterBand*& alpha) {
   std::vector<GDALRasterBand*> of_values;
@@ -254,7 +223,11 @@ RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std
   }
   const HeightUnit heights = height_unit_of(dataset.GetSpatialRef());
   conversion_ = conversion_from({file, band.GetUnitType(), heights.name, heights.metres}, quantity);
-  nodata_ = nodata_of(band, has_nodata_);
+  int has_nodata = 0;
+  nodata_ = type == GDT_Int64    ? static_cast<double>(band.GetNoDataValueAsInt64(&has_nodata))
+            : type == GDT_UInt64 ? static_cast<double>(band.GetNoDataValueAsUInt64(&has_nodata))
+                                 : band.GetNoDataValue(&has_nodata);
+  has_nodata_ = has_nodata != 0;
   require_plain_mask(file);
   // GDAL's own mask ignores opacity bands that are not integers, and those of rasters with a nodata value.
   const int flags = band.GetMaskFlags();
@@ -342,6 +315,57 @@ bool is_raster_file(const std::string& file) {
   const GdalMessages messages;
   const auto is = [&](unsigned kind) { return GDALIdentifyDriverEx(file.c_str(), kind, nullptr, nullptr) != nullptr; };
   return is(GDAL_OF_RASTER) && !is(GDAL_OF_VECTOR);
+}
+
+void write_geotiff(const std::string& file, const Raster& raster, const BandText& text) {
+  constexpr double written_nodata = -9999.0;
+  THAWSLIDE_ASSERT(raster.columns > 0 && raster.rows > 0 &&
+                       raster.values.size() == raster.index(raster.columns - 1, raster.rows - 1) + 1,
+                   "{} x {} points, {} values", raster.columns, raster.rows, raster.values.size());
+  AtomicFile whole(file);
+  const GdalMessages messages;
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoTIFF");
+  // Predictor 3 is TIFF's for floating-point values. Tiles without data are omitted, so size and time scale with the
+  // slide.
+  const char* const options[] = {"TILED=YES",        "COMPRESS=DEFLATE", "PREDICTOR=3",
+                                 "BIGTIFF=IF_SAFER", "SPARSE_OK=TRUE",   nullptr};
+  GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), raster.columns, raster.rows, 1, GDT_Float64,
+                                              const_cast<char**>(options)));
+  if (dataset == nullptr) {
+    whole.fail(messages.reason());
+  }
+  double transform[6] = {raster.x - 0.5 * raster.cell_x,       raster.cell_x, 0.0,
+                         raster.y_end() + 0.5 * raster.cell_y, 0.0,           -raster.cell_y};
+  dataset->SetGeoTransform(transform);
+  if (!raster.crs.empty()) {
+    OGRSpatialReference reference = reference_from_wkt(raster.crs);
+    if (!text.heights.empty()) {
+      const OGRSpatialReference horizontal = reference;
+      OGRSpatialReference vertical;
+      vertical.SetVertCS(text.heights.c_str(), text.heights.c_str());  // in metres
+      const std::string name = fmt::format("{} + {}", horizontal.GetName(), text.heights);
+      reference.SetCompoundCS(name.c_str(), &horizontal, &vertical);
+    }
+    dataset->SetSpatialRef(&reference);
+  }
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  band.SetNoDataValue(written_nodata);
+  band.SetUnitType(text.unit.c_str());
+  band.SetDescription(text.description.c_str());
+  std::vector<double> values = raster.values;
+  std::ranges::replace_if(
+      values, [](double value) { return std::isnan(value); }, written_nodata);
+  // From north to south.
+  const auto line = static_cast<GSpacing>(raster.columns) * static_cast<GSpacing>(sizeof(double));
+  const bool written =
+      band.RasterIO(GF_Write, 0, 0, raster.columns, raster.rows, values.data() + raster.index(0, raster.rows - 1),
+                    raster.columns, raster.rows, GDT_Float64, sizeof(double), -line, nullptr) == CE_None;
+  dataset.reset();
+  if (!written || messages.any_error()) {
+    whole.fail(messages.reason());
+  }
+  whole.publish();
 }
 
 }  // namespace thawslide::gis

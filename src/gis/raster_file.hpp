@@ -57,8 +57,6 @@ class RasterFile {
   double nodata_ = 0.0;
 };
 
-enum class Precision { float32, float64 };
-
 struct BandText {
   std::string unit;          // "m"
   std::string description;   // "maximum thickness"
@@ -66,8 +64,7 @@ struct BandText {
 };
 
 // Tiled, DEFLATE compressed, nodata -9999 for NaN, with the raster's reference system. The file is replaced atomically.
-void write_geotiff(const std::string& file, const Raster& raster, const BandText& text,
-                   Precision precision = Precision::float64);
+void write_geotiff(const std::string& file, const Raster& raster, const BandText& text);
 
 // True if GDAL reads the file as a raster, and not also as vector data.
 [[nodiscard]] bool is_raster_file(const std::string& file);

@@ -84,54 +84,39 @@ std::optional<Unit> known_unit(const std::string& unit, Quantity quantity) {
   return found == std::end(units) ? std::nullopt : std::optional<Unit>(*found);
 }
 
-[[noreturn]] void fail_with_unit(const StatedUnits& stated, const TextsOfQuantity& texts) {
-  throw UserError(
-      "{}: the unit of the values is '{}'; allowed: a unit of {} ({}). Check that it is the right file, or "
-      "state the unit that the values have: gdal_edit.py -units {} {}",
-      stated.file, config::shown(stated.band), texts.of, texts.allowed, texts.short_own, shell_quote(stated.file));
-}
-
-void check_that_both_agree(const StatedUnits& stated, double band_metres) {
-  constexpr double agreement = 1e-5;  // relative; the two kinds of feet differ by less
-  if (!states_nothing(stated.vertical) && std::abs(band_metres / stated.vertical_metres - 1.0) > agreement) {
-    throw UserError(
-        "{}: two units are stated for the values: '{}' by the band, '{}' by the heights of the coordinate reference "
-        "system; allowed: one. State the right one in both: gdal_edit.py -units m -a_srs EPSG:... {}",
-        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_quote(stated.file));
-  }
-}
-
-UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, const Unit& found, const char* own) {
-  UnitConversion conversion{found.factor, found.offset, ""};
-  if (found.factor != 1.0 || found.offset != 0.0) {
-    conversion.warning = fmt::format("note: {} states the unit '{}': its values were converted to {}",
-                                     name_of_file(stated.file), config::shown(unit), own);
-  }
-  return conversion;
-}
-
 }  // namespace
 
 UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   // GDAL reports the vertical unit for a band without a unit, whatever the band measures.
   const bool is_vertical = states_nothing(stated.band) || stated.band == stated.vertical;
-  if (quantity == Quantity::code || (is_vertical && quantity != Quantity::length)) {
+  if (quantity == Quantity::code ||
+      (is_vertical && (quantity != Quantity::length || states_nothing(stated.vertical)))) {
     return {};
   }
   const TextsOfQuantity& texts = texts_of.at(quantity);
-  if (is_vertical) {
-    return states_nothing(stated.vertical)
-               ? UnitConversion{}
-               : with_warning(stated, stated.vertical, {quantity, "", stated.vertical_metres}, texts.own);
-  }
-  const std::optional<Unit> found = known_unit(stated.band, quantity);
+  const std::optional<Unit> found =
+      is_vertical ? Unit{quantity, "", stated.vertical_metres} : known_unit(stated.band, quantity);
   if (!found) {
-    fail_with_unit(stated, texts);
+    throw UserError(
+        "{}: the unit of the values is '{}'; allowed: a unit of {} ({}). Check that it is the right file, or "
+        "state the unit that the values have: gdal_edit.py -units {} {}",
+        stated.file, config::shown(stated.band), texts.of, texts.allowed, texts.short_own, shell_quote(stated.file));
   }
-  if (quantity == Quantity::length) {
-    check_that_both_agree(stated, found->factor);
+  constexpr double agreement = 1e-5;  // relative; the two kinds of feet differ by less
+  if (quantity == Quantity::length && !states_nothing(stated.vertical) &&
+      std::abs(found->factor / stated.vertical_metres - 1.0) > agreement) {
+    throw UserError(
+        "{}: two units are stated for the values: '{}' by the band, '{}' by the heights of the coordinate reference "
+        "system; allowed: one. State the right one in both: gdal_edit.py -units m -a_srs EPSG:... {}",
+        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_quote(stated.file));
   }
-  return with_warning(stated, stated.band, *found, texts.own);
+  UnitConversion conversion{found->factor, found->offset, ""};
+  if (found->factor != 1.0 || found->offset != 0.0) {
+    conversion.warning =
+        fmt::format("note: {} states the unit '{}': its values were converted to {}", name_of_file(stated.file),
+                    config::shown(is_vertical ? stated.vertical : stated.band), texts.own);
+  }
+  return conversion;
 }
 
 }  // namespace thawslide::gis

@@ -37,15 +37,14 @@ TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
 
 TEST(RasterFileTest, GeotiffIsTiledAndCompressedWithADescribedBand) {
   const std::string file = in_folder("map.tif");
-  write_geotiff(file, raster_of([](double, double) { return 0.5; }, 0.0, 0.0, 5.0, 300, 280), {"m/s", "largest speed"},
-                Precision::float32);
+  write_geotiff(file, raster_of([](double, double) { return 0.5; }, 0.0, 0.0, 5.0, 300, 280), {"m/s", "largest speed"});
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   int columns = 0, rows = 0;
   band.GetBlockSize(&columns, &rows);
   EXPECT_EQ(columns, 256);
   EXPECT_EQ(rows, 256);
-  EXPECT_EQ(band.GetRasterDataType(), GDT_Float32);
+  EXPECT_EQ(band.GetRasterDataType(), GDT_Float64);
   EXPECT_EQ(band.GetNoDataValue(), -9999.0);
   EXPECT_STREQ(band.GetUnitType(), "m/s");
   EXPECT_STREQ(band.GetDescription(), "largest speed");
