@@ -3,7 +3,6 @@
 #include "base/rounding.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
-#include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
 

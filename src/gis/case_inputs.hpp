@@ -9,7 +9,7 @@
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "gis/point_window.hpp"
-#include "gis/value_unit.hpp"
+#include "gis/raster_file.hpp"
 
 namespace thawslide::gis {
 

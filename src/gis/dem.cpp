@@ -9,7 +9,6 @@
 #include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
-#include "gis/filters.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/roughness.hpp"
 #include "gis/sampling.hpp"

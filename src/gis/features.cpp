@@ -1,5 +1,4 @@
-#include "gis/features.hpp"
-
+// Features of vector files by names and values.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +8,7 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
+#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 

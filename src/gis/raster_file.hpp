@@ -1,4 +1,4 @@
-// Single-band raster files: GeoTIFF and ESRI ASCII grids are read, GeoTIFF is written.
+// Single-band raster files: GeoTIFF and ESRI ASCII grids are read, GeoTIFF is written. Units of their values.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,31 @@
 
 #include "base/raster.hpp"
 #include "gis/point_window.hpp"
-#include "gis/value_unit.hpp"
 
 namespace thawslide::gis {
+
+// Quantity of the values of a raster: lengths [m] (elevations, thicknesses, depths of a bed), temperatures [C],
+// fractions of a volume [1], speeds [m/s], times [s], or codes, which have no unit.
+enum class Quantity { length, temperature, fraction, speed, time, code };
+
+// Units stated in a file; empty: none.
+struct StatedUnits {
+  std::string file;
+  std::string band;              // of the values
+  std::string vertical;          // of the heights of its reference system
+  double vertical_metres = 1.0;  // length of this unit
+};
+
+// computed = factor * stated + offset
+struct UnitConversion {
+  double factor = 1.0, offset = 0.0;
+  std::string warning;  // for the user; empty: no conversion
+};
+
+// A band of lengths without a unit has the vertical unit of its reference system. Without either, values are in metres,
+// degrees Celsius, fractions of 1, m/s or s. Throws UserError for an unknown unit or one of another quantity, and for
+// two contradictory units.
+[[nodiscard]] UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity);
 
 // GDAL's drivers that may open a file of a user; ends with null. Other formats may refer to files or network locations
 // that a case may not name.

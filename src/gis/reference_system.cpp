@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
@@ -14,7 +15,6 @@
 #include "config/input_limits.hpp"
 #include "gis/case_inputs.hpp"
 #include "gis/gdal_messages.hpp"
-#include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
 
@@ -147,25 +147,61 @@ std::array<double, 2> middle_in_degrees(const MapExtent& raster, const std::stri
       raster.file, unit, name_of(wkt), remedy);
 }
 
-// "1.46 times those on the ground at its corner 1002000, 5900000"
-std::string format_scales(const PointScales& scales) {
-  const double ratio = scales.largest / scales.smallest;
-  const std::string range = ratio < 1.001
-                                ? fmt::format("{:.3g}", scales.largest)
-                                : fmt::format("{:.3g} to {:.3g}, by direction,", scales.smallest, scales.largest);
-  return fmt::format("{} times those on the ground at the corner {}, {}", range, coordinate_text(scales.x),
-                     coordinate_text(scales.y));
+// Principal point scales: the smallest and the largest length on the map over the length on the ellipsoid, by direction
+// (Snyder 1987, Map projections: a working manual, USGS Professional Paper 1395, pp. 20-26). Their ratio is that of the
+// axes of Tissot's indicatrix, which measures the angular distortion.
+struct PointScales {
+  double smallest = 1.0, largest = 1.0;
+  double x = 0.0, y = 0.0;  // on the map [m]
+
+  // Largest relative error of lengths, or of ratios of lengths in two directions.
+  [[nodiscard]] double error() const {
+    return std::max({std::abs(largest - 1.0), std::abs(smallest - 1.0), largest / smallest - 1.0});
+  }
+};
+
+// With central differences of longitude and latitude, which are in units of `radians`. Empty outside the projection.
+std::optional<PointScales> scales_at(double x, double y, const OGRSpatialReference& reference,
+                                     const Reprojection& to_degrees, double radians) {
+  constexpr double step = 10.0;  // m
+  std::vector<double> longitude{x + step, x - step, x, x, x}, latitude{y, y, y + step, y - step, y};
+  if (!to_degrees.apply(longitude, latitude)) {
+    return std::nullopt;
+  }
+  const double a = reference.GetSemiMajor(nullptr), b = reference.GetSemiMinor(nullptr);
+  const double e2 = 1.0 - (b / a) * (b / a), sine = std::sin(radians * latitude[4]);
+  const double w2 = 1.0 - e2 * sine * sine;
+  const double meridian = a * (1.0 - e2) / (w2 * std::sqrt(w2)) * radians / (2.0 * step);
+  const double parallel = a / std::sqrt(w2) * std::cos(radians * latitude[4]) * radians / (2.0 * step);
+  // Metres on the ellipsoid, to the east and to the north, per metre on the map.
+  const double turn = 2.0 * std::numbers::pi / radians;
+  const double east_x = parallel * std::remainder(longitude[0] - longitude[1], turn);
+  const double east_y = parallel * std::remainder(longitude[2] - longitude[3], turn);
+  const double north_x = meridian * (latitude[0] - latitude[1]), north_y = meridian * (latitude[2] - latitude[3]);
+  // Sum and difference of the singular values of this matrix.
+  const double sum = std::hypot(east_x + north_y, east_y - north_x);
+  const double difference = std::hypot(east_x - north_y, east_y + north_x);
+  const PointScales scales{2.0 / (sum + difference), 2.0 / std::abs(sum - difference), x, y};
+  return std::isfinite(scales.error()) ? std::optional(scales) : std::nullopt;
 }
 
-// The key georeferences a DEM and does not change its values.
-void require_metric_heights(const OGRSpatialReference& reference, const std::string& name) {
-  const HeightUnit heights = height_unit_of(&reference);
-  if (std::abs(heights.metres - 1.0) > 1e-9) {
-    throw UserError(
-        "{} has heights in the unit '{}'; allowed: a map projection in metres, without heights or with heights in "
-        "metres. Name its horizontal part alone, and state the unit of the elevations in the file: gdal_edit.py -units",
-        name, heights.name);
+// Scales at the corner of the extent with the largest error. `wkt`: a projection in metres. Without distortion if no
+// corner lies on the ellipsoid.
+PointScales worst_scales(const std::string& wkt, const Rectangle& extent) {
+  const OGRSpatialReference reference = reference_from_wkt(wkt);
+  OGRSpatialReference degrees;
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  degrees.CopyGeogCSFrom(&reference);
+  const Reprojection to_degrees(wkt, wkt_from_reference(&degrees));
+  PointScales worst;
+  for (const double x : {extent.min_x, extent.max_x}) {
+    for (const double y : {extent.min_y, extent.max_y}) {
+      const std::optional<PointScales> scales =
+          scales_at(x, y, reference, to_degrees, degrees.GetAngularUnits(nullptr));
+      worst = scales && scales->error() > worst.error() ? *scales : worst;
+    }
   }
+  return worst;
 }
 
 // GDAL ignores characters after the digits of a number.
@@ -259,7 +295,15 @@ std::string metric_system(const MapExtent& raster, const std::string& wkt_of_fil
     fail_with_unit(raster, wkt, unit == nullptr ? "unknown" : unit, metres_per_unit, from_key);
   }
   if (from_key) {
-    require_metric_heights(reference, name_of(wkt));
+    // The key georeferences a DEM and does not change its values.
+    const HeightUnit heights = height_unit_of(&reference);
+    if (std::abs(heights.metres - 1.0) > 1e-9) {
+      throw UserError(
+          "{} has heights in the unit '{}'; allowed: a map projection in metres, without heights or with heights in "
+          "metres. Name its horizontal part alone, and state the unit of the elevations in the file: gdal_edit.py "
+          "-units",
+          name_of(wkt), heights.name);
+    }
   }
   reference.StripVertical();
   reference.DemoteTo2D(nullptr);
@@ -269,18 +313,24 @@ std::string metric_system(const MapExtent& raster, const std::string& wkt_of_fil
 std::string distortion_note(const MapExtent& raster, const std::string& wkt, bool from_key) {
   constexpr double noticeable = 0.01, most = 0.05;
   const PointScales scales = worst_scales(wkt, raster.extent);
+  // "1.46 times those on the ground at the corner 1002000, 5900000"
+  const std::string range = scales.largest < 1.001 * scales.smallest
+                                ? fmt::format("{:.3g}", scales.largest)
+                                : fmt::format("{:.3g} to {:.3g}, by direction,", scales.smallest, scales.largest);
+  const std::string times = fmt::format("{} times those on the ground at the corner {}, {}", range,
+                                        coordinate_text(scales.x), coordinate_text(scales.y));
   if (scales.error() > most) {
     const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
     const std::string source = from_key ? fmt::format("-s_srs {} ", shell_quote(name_of(wkt))) : "";
     throw UserError(
         "{}: lengths in the map projection {} are {}; allowed: a projection that preserves lengths to within {:g} %. "
         "Reproject: {}",
-        raster.file, name_of(wkt), format_scales(scales), 100.0 * most,
+        raster.file, name_of(wkt), times, 100.0 * most,
         warp_command(raster, source, longitude, latitude, 1.0 / std::sqrt(scales.smallest * scales.largest)));
   }
   return scales.error() <= noticeable ? ""
                                       : fmt::format("note: lengths in the map projection of {}, {}, are {}",
-                                                    name_of_file(raster.file), name_of(wkt), format_scales(scales));
+                                                    name_of_file(raster.file), name_of(wkt), times);
 }
 
 std::string height_system_of(const std::string& wkt) {
@@ -310,14 +360,11 @@ void require_same_heights(const std::string& file, const std::string& found, con
 std::string location_warning(const MapExtent& raster, const std::string& wkt) {
   constexpr double far = 1000.0, kilometres_per_degree = 111.2;  // [km]; along a meridian
   const GdalMessages messages;
-  const OGRSpatialReference given = reference_from_wkt(wkt);
-  const char* authority = given.GetAuthorityName(nullptr);
-  const char* code = given.GetAuthorityCode(nullptr);
   OGRSpatialReference registered;
   double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
   const char* area = nullptr;
-  const bool has_area = authority != nullptr && code != nullptr && std::string(authority) == "EPSG" &&
-                        registered.importFromEPSG(std::atoi(code)) == OGRERR_NONE &&
+  const std::string name = name_of(wkt);
+  const bool has_area = name.rfind("EPSG:", 0) == 0 && registered.SetFromUserInput(name.c_str()) == OGRERR_NONE &&
                         registered.GetAreaOfUse(&west, &south, &east, &north, &area);
   if (!has_area || west > east) {
     return "";  // no area of use is given, or it crosses the date line
@@ -333,7 +380,7 @@ std::string location_warning(const MapExtent& raster, const std::string& wkt) {
   return fmt::format(
       "the middle of {} would be at longitude {:.4g}, latitude {:.4g} in {}, which is for longitudes {:.4g} to {:.4g} "
       "and latitudes {:.4g} to {:.4g}: is it the right system? If not, set terrain.crs to the one the numbers are in",
-      name_of_file(raster.file), longitude, latitude, name_of(wkt), west, east, south, north);
+      name_of_file(raster.file), longitude, latitude, name, west, east, south, north);
 }
 
 }  // namespace thawslide::gis

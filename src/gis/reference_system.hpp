@@ -1,8 +1,10 @@
-// Coordinate reference systems: that of a file or of the user, its suitability for the computation, and names. All
-// systems are WKT texts here.
+// Coordinate reference systems: that of a file or of the user, its suitability for the computation, names, and
+// transformations. All systems are WKT texts here.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "gis/point_window.hpp"
 
@@ -45,5 +47,35 @@ void require_same_heights(const std::string& file, const std::string& found, con
 
 // Warning if a raster lies far outside the area of use of its system; empty otherwise.
 [[nodiscard]] std::string location_warning(const MapExtent& raster, const std::string& wkt);
+
+// Transforms coordinates between two systems in WKT. If one is empty, or both are equal, coordinates are unchanged.
+class Reprojection {
+ public:
+  Reprojection(const std::string& from_wkt, const std::string& to_wkt);
+  ~Reprojection();
+  Reprojection(Reprojection&&) noexcept;
+  Reprojection& operator=(Reprojection&&) noexcept;
+
+  [[nodiscard]] bool changes_nothing() const { return transformation_ == nullptr; }
+  // Transforms x, y in place. Returns false if a point has no coordinates in the other system.
+  [[nodiscard]] bool apply(std::vector<double>& x, std::vector<double>& y) const;
+
+ private:
+  struct Transformation;
+  std::unique_ptr<Transformation> transformation_;
+};
+
+// A raster in another system, with about its own spacing: bilinear between its points, or codes of the nearest point.
+// Points of which the nearest one has no data have none. Throws UserError without a transformation.
+[[nodiscard]] Raster reprojected(const Raster& raster, const std::string& to_wkt, bool is_code);
+
+// Reference system of a file other than the DEM: that of the file, or that of the ground if the file has none, or one
+// that its coordinates cannot be in. `warning`: empty if there is none.
+struct LikelySystem {
+  std::string wkt;
+  std::string warning;
+};
+[[nodiscard]] LikelySystem likely_system(const std::string& file, const std::string& specified, const Rectangle& extent,
+                                         const std::string& ground);
 
 }  // namespace thawslide::gis

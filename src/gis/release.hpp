@@ -38,6 +38,8 @@ struct ReleaseInput {
   }
 };
 
+// Area of a release: the polygons of a file or, without these, the points at which a raster has a thickness or a
+// surface lies above the ground.
 struct ReleaseArea {
   VectorLayer layer;  // selected features; none for a raster
   Polygons polygons;  // their union
@@ -50,10 +52,6 @@ struct ReleaseArea {
 inline constexpr double thickest = 500.0;
 inline constexpr const char* swapped_dem =
     "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness.";
-
-// The polygons of a file or, without these, the points at which a raster has a thickness or a surface lies above the
-// ground. Throws UserError if the release extends beyond the domain or the DEM.
-[[nodiscard]] ReleaseArea load_release_area(const ReleaseInput& input);
 
 // Vertical thickness [m] at the points of the area's `fraction`, with its taper. Throws UserError if it is missing or
 // negative.
@@ -71,6 +69,7 @@ struct LoadedRelease {
   Raster spread;      // the same, distributed by the taper like the thickness
 };
 
+// Throws UserError if the release extends beyond the domain or the DEM.
 [[nodiscard]] LoadedRelease load_release(const ReleaseInput& input);
 
 // Throws UserError if the outlines of two bodies overlap by more than a thousandth of the smaller area.

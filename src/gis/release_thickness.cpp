@@ -4,12 +4,11 @@
 
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
-#include "gis/features.hpp"
-#include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/release.hpp"
 #include "gis/sampling.hpp"
+#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 

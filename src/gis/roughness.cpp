@@ -14,8 +14,8 @@
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
-#include "gis/filters.hpp"
 #include "gis/point_window.hpp"
+#include "gis/sampling.hpp"
 
 namespace thawslide::gis {
 

@@ -7,12 +7,10 @@
 
 #include "gis/case_inputs.hpp"
 #include "gis/dem.hpp"
-#include "gis/features.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
-#include "gis/substrates.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {

@@ -1,5 +1,4 @@
-#include "gis/substrates.hpp"
-
+// Maps of the ground: substrates and the erodible bed.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,10 +6,11 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
-#include "gis/features.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/sampling.hpp"
+#include "gis/site.hpp"
+#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 

@@ -1,5 +1,4 @@
-#include "gis/value_unit.hpp"
-
+// Units of the values of rasters.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -11,6 +10,7 @@
 #include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
+#include "gis/raster_file.hpp"
 
 namespace thawslide::gis {
 

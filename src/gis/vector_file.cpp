@@ -18,21 +18,19 @@
 #include "gis/data_set.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/raster_file.hpp"
-#include "gis/reprojection.hpp"
+#include "gis/reference_system.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-enum class Kind { polygons, lines, points };
+enum class Kind { polygons, lines };
 
-const char* name_of_kind(Kind kind) {
-  return kind == Kind::polygons ? "polygons" : kind == Kind::lines ? "lines" : "points";
-}
+const char* name_of_kind(Kind kind) { return kind == Kind::polygons ? "polygons" : "lines"; }
 
 bool is_of_kind(OGRwkbGeometryType type, Kind kind) {
-  constexpr OGRwkbGeometryType one[] = {wkbCurvePolygon, wkbCurve, wkbPoint};
-  constexpr OGRwkbGeometryType several[] = {wkbMultiSurface, wkbMultiCurve, wkbMultiPoint};
+  constexpr OGRwkbGeometryType one[] = {wkbCurvePolygon, wkbCurve};
+  constexpr OGRwkbGeometryType several[] = {wkbMultiSurface, wkbMultiCurve};
   const auto k = static_cast<std::size_t>(kind);
   const OGRwkbGeometryType flat = wkbFlatten(type);
   return flat != wkbTriangle && flat != wkbCurve && flat != wkbSurface &&  // not read
@@ -286,7 +284,7 @@ class LayerReader {
   }
 
   std::string title_of(const std::string& name) const {
-    const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
+    const char* kind = kind_ == Kind::polygons ? "polygon" : "line";
     return fmt::format("{} {}{}", kind, result_.features.size() + 1,
                        name.empty() ? "" : " (" + config::shown(name) + ")");
   }
@@ -310,10 +308,6 @@ class LayerReader {
     } else if (kind_ == Kind::lines && type == wkbLineString) {
       feature.lines.push_back(from_geometry(*geometry.toLineString()));
       reproject(feature.lines.back(), feature.title);
-    } else if (kind_ == Kind::points && type == wkbPoint) {
-      Polyline2 point{{geometry.toPoint()->getX(), geometry.toPoint()->getY()}};
-      reproject(point, feature.title);
-      feature.points.push_back(point.front());
     } else {
       throw UserError("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title, geometry.getGeometryName(),
                       name_of_kind(kind_));
@@ -362,10 +356,6 @@ VectorLayer read_polygons(const std::string& file, const std::string& crs) {
 
 VectorLayer read_lines(const std::string& file, const std::string& crs) {
   return LayerReader(file, crs, Kind::lines).read();
-}
-
-VectorLayer read_points(const std::string& file, const std::string& crs) {
-  return LayerReader(file, crs, Kind::points).read();
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,5 @@
-// Vector files of polygons, lines and points: Shapefile, GeoPackage, GeoJSON.
+// Vector files of polygons, lines and points (Shapefile, GeoPackage, GeoJSON), and their features selected by names, or
+// grouped by the values of an attribute.
 #pragma once
 
 #include <array>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gis/case_inputs.hpp"
 #include "gis/polygons.hpp"
 
 namespace thawslide::gis {
@@ -15,7 +17,6 @@ struct Feature {
   std::string name;   // the attribute "name"; empty if there is none
   Polygons polygons;
   std::vector<Polyline2> lines;
-  std::vector<std::array<double, 2>> points;
   std::map<std::string, std::string> texts;  // all attributes that are not null
   std::map<std::string, double> numbers;     // numeric attributes, without booleans
 };
@@ -35,6 +36,38 @@ struct VectorLayer {
 // intersect themselves. `crs`: WKT of the ground, to which coordinates in another system are transformed.
 [[nodiscard]] VectorLayer read_polygons(const std::string& file, const std::string& crs);
 [[nodiscard]] VectorLayer read_lines(const std::string& file, const std::string& crs);
-[[nodiscard]] VectorLayer read_points(const std::string& file, const std::string& crs);
+
+// Spelling of an attribute's name in the file: the same name, otherwise one that differs only in letter case. Throws
+// UserError for none and for several. `key`: for the message.
+[[nodiscard]] std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key);
+
+// Features with the given names; all of them if there are no names. An error lists the names in the file.
+[[nodiscard]] std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,
+                                                  const std::string& name_attribute);
+
+struct ValuedArea {
+  double value = 0.0;
+  Polygons polygons;  // union of those with the value
+};
+
+// Features of a layer in groups, by increasing value. Throws UserError if a feature lacks the attribute or has a text
+// as its value, and if features of different values overlap. `key`: key that names the attribute, for messages.
+[[nodiscard]] std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::string& attribute,
+                                                     const std::string& key);
+
+struct PolygonRequest {
+  Located<std::string> file;
+  Located<std::vector<std::string>> names;  // empty: all polygons
+  std::string name_attribute;
+};
+
+// The file with the selected features, in the ground's coordinates (WKT). Appends warnings.
+[[nodiscard]] VectorLayer read_named_polygons(const PolygonRequest& request, const std::string& crs,
+                                              std::vector<std::string>& warnings);
+
+[[nodiscard]] Polygons union_of_features(const VectorLayer& layer);
+
+// Part of the request's polygons in the domain. Throws UserError if there is none.
+[[nodiscard]] Polygons part_in_domain(const PolygonRequest& request, const Polygons& polygons, const Rectangle& domain);
 
 }  // namespace thawslide::gis

@@ -5,15 +5,14 @@
 #include <nanobind/stl/vector.h>
 
 #include "config/case.hpp"
-#include "gis/value_unit.hpp"
+#include "gis/raster_file.hpp"
 #include "python/bindings.hpp"
 #include "run/input_files.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/dem.hpp"
 #include "gis/geopackage.hpp"
-#include "gis/raster_file.hpp"
-#include "gis/reprojection.hpp"
+#include "gis/reference_system.hpp"
 #include "gis/vector_file.hpp"
 #endif
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "gis/value_unit.hpp"
+#include "gis/raster_file.hpp"
 #include "map_files.hpp"
 
 namespace thawslide::fuzz {

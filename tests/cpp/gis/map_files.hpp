@@ -20,7 +20,6 @@
 #include "config/case.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
-#include "gis/reprojection.hpp"
 
 namespace thawslide::gis::map_files {
 

@@ -134,15 +134,6 @@ TEST(ReleaseTest, TaperKeepsTheVolume) {
   EXPECT_EQ(thickness_at(release, 280.0, 350.0), 0.0);
 }
 
-TEST(ReleaseTest, WarnsOfTowers) {
-  config::Case tower = case_with_release({{"", box_at(300, 300, 500, 500)}}, 600.0);
-  EXPECT_EQ(load_site(tower).warnings,
-            std::vector<std::string>{"the release of the body rock is up to 600 m thick and, by its area, 200 m wide: "
-                                     "is the thickness in metres?"});
-  tower.bodies["rock"].thickness.number = 90.0;
-  EXPECT_EQ(load_site(tower).warnings, std::vector<std::string>{});
-}
-
 TEST(ReleaseTest, RasterGivesTheThicknessWithinPolygons) {
   config::Case parameters = case_with_release({{"", box_at(302.5, 302.5, 402.5, 402.5)}});
   const auto wedge = [](double x, double) { return 0.1 * (x - west - 250.0); };

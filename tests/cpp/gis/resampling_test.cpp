@@ -1,7 +1,6 @@
 // Resampled points, tapers and values between points.
 #include <numeric>
 
-#include "gis/filters.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release.hpp"
 #include "gis/sampling.hpp"

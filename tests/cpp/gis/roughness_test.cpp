@@ -5,7 +5,7 @@
 #include <random>
 
 #include "base/raster_sampling.hpp"
-#include "gis/filters.hpp"
+#include "gis/sampling.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <random>
 
-#include "gis/filters.hpp"
 #include "gis/roughness.hpp"
+#include "gis/sampling.hpp"
 #include "map_files.hpp"
 
 namespace thawslide::gis {

@@ -1,12 +1,12 @@
 // Substrates and beds from polygons and rasters: their areas and depths, errors, warnings.
-#include "gis/substrates.hpp"
+#include "sim/setup/substrates.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "config/read_case.hpp"
+#include "gis/site.hpp"
 #include "sim/records/history.hpp"
-#include "sim/setup/substrates.hpp"
 #include "sim/simulation.hpp"
 #include "site_case.hpp"
 

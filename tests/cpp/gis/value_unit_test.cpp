@@ -1,7 +1,6 @@
 // Units of rasters: known ones are converted, unknown ones are refused.
-#include "gis/value_unit.hpp"
-
 #include "base/raster_sampling.hpp"
+#include "gis/raster_file.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -3,7 +3,6 @@
 
 #include <ogrsf_frmts.h>
 
-#include "gis/features.hpp"
 #include "gis/geopackage.hpp"
 #include "map_files.hpp"
 

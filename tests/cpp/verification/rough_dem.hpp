@@ -4,8 +4,8 @@
 #include <random>
 
 #include "../support/channel_on_dem.hpp"
-#include "gis/filters.hpp"
 #include "gis/roughness.hpp"
+#include "gis/sampling.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification::rough_dem {
