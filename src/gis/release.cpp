@@ -96,8 +96,8 @@ void check_size(const ReleaseInput& input, double size) {
   }
 }
 
-Rectangle extent_of_positive(const config::Body& body, const Raster& source) {
-  const std::string& file = body.thickness.source;
+Rectangle extent_of_positive(const ReleaseInput& input, const Raster& source) {
+  const config::MapValue& thickness = input.body.thickness;
   std::optional<Rectangle> extent;
   for_each_point(source, [&](int column, int row, double value) {
     if (value > 0.0) {
@@ -106,14 +106,14 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source) {
       extent->include(x, y);
     }
   });
+  if (!extent && thickness.from == config::MapValue::From::raster) {
+    input.fail("thickness", "{}: the thickness is not above 0 at any point: there is no release.", thickness.source);
+  }
   if (!extent) {
-    if (body.thickness.from == config::MapValue::From::raster) {
-      throw UserError("{}: the thickness is not above 0 at any point: there is no release.", file);
-    }
-    throw UserError(
-        "{}: the surface before the slide is at most {:g} m above the DEM: there is no release. Are the two files "
-        "swapped?",
-        file, body.surface_tolerance);
+    input.fail("thickness",
+               "{}: the surface before the slide is at most {:g} m above the DEM: there is no release. Are the two "
+               "files swapped?",
+               thickness.source, input.body.surface_tolerance);
   }
   return *extent;
 }
@@ -162,15 +162,13 @@ Raster thickness_without_polygons(const ReleaseInput& input) {
 
 ReleaseArea area_of_raster(const ReleaseInput& input) {
   const Raster& ground = input.ground.raster;
-  const std::string place = input.place("thickness");
   ReleaseArea area;
   area.source = thickness_without_polygons(input);
-  const Rectangle extent = at_place(place, [&] { return extent_of_positive(input.body, area.source); });
+  const Rectangle extent = extent_of_positive(input, area.source);
   check_area(input, extent, std::ranges::any_of(area.source.values, [](double value) { return value > thickest; }));
   check_taper(input, extent);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
-  area.fraction = at_place(
-      place, [&] { return sampled(area.source, points_about(reached, input.body.taper, ground), Missing::zero); });
+  area.fraction = sampled(area.source, points_about(reached, input.body.taper, ground), Missing::zero);
   for (double& fraction : area.fraction.values) {
     fraction = fraction > 0.0 ? 1.0 : 0.0;
   }

@@ -22,10 +22,14 @@ class ThicknessMaker {
       : input_(input), body_(input.body), area_(area), ground_(input.ground.raster) {}
 
   Raster make() {
-    Raster thickness = area_.is_raster() ? of_release_raster() : of_polygons();
+    Raster thickness = thickness_before_taper();
     check_ground(thickness, Spread::by_outline);
     if (body_.thickness_along == config::ThicknessAlong::normal) {
-      to_vertical(thickness);
+      for_each_positive(thickness, [&](int column, int row, double& value) {
+        const auto [i, j] = *in_ground(column, row);
+        const Gradient gradient = gradient_at(ground_, i, j);
+        value = vertical_thickness(value, gradient.x, gradient.y);
+      });
     }
     thickness = tapered(thickness, body_.taper);
     check_ground(thickness, Spread::by_taper);
@@ -34,11 +38,6 @@ class ThicknessMaker {
 
  private:
   enum class Spread { by_outline, by_taper };
-
-  template <class Work>
-  auto at_thickness(const Work& work) const {
-    return at_place(input_.place("thickness"), work);
-  }
 
   // Indices of a point of the area in the ground raster; nothing if there is no ground.
   [[nodiscard]] std::optional<std::pair<int, int>> in_ground(int column, int row) const {
@@ -82,32 +81,21 @@ class ThicknessMaker {
     }
   }
 
-  void to_vertical(Raster& thickness) const {
-    for_each_positive(thickness, [&](int column, int row, double& value) {
-      const auto [i, j] = *in_ground(column, row);
-      const Gradient gradient = gradient_at(ground_, i, j);
-      value = vertical_thickness(value, gradient.x, gradient.y);
-    });
-  }
-
-  Raster of_release_raster() {
-    require_not_negative(area_.source, nullptr);
-    return sampled(area_.source, area_.fraction, Missing::zero);
-  }
-
-  Raster of_polygons() {
+  Raster thickness_before_taper() const {
     switch (body_.thickness.from) {
       case MapValue::From::number:
         return of_number();
       case MapValue::From::attribute:
         return of_attribute();
       case MapValue::From::raster:
-        return of_raster();
       case MapValue::From::surface:
-        return of_surface();
+        break;
     }
-    THAWSLIDE_ASSERT(false, "a thickness from {}", static_cast<int>(body_.thickness.from));
-    return {};
+    if (area_.is_raster()) {
+      require_not_negative(area_.source, nullptr);
+      return sampled(area_.source, area_.fraction, Missing::zero);
+    }
+    return body_.thickness.from == MapValue::From::raster ? of_raster() : of_surface();
   }
 
   Raster of_number() const {
@@ -117,13 +105,14 @@ class ThicknessMaker {
                   "\"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
                   body_.thickness.number);
     }
-    return times_fraction([&](std::size_t) { return body_.thickness.number; });
+    return times_fraction(area_.fraction.filled(body_.thickness.number));
   }
 
   Raster of_attribute() const {
     Raster thickness = area_.fraction.filled(0.0);
-    for (const ValuedArea& part : at_thickness(
-             [&] { return areas_by_value(area_.layer, body_.thickness.source, input_.full_key("thickness")); })) {
+    for (const ValuedArea& part : at_place(input_.place("thickness"), [&] {
+           return areas_by_value(area_.layer, body_.thickness.source, input_.full_key("thickness"));
+         })) {
       if (part.value < 0.0) {
         input_.fail("thickness", "{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
                     body_.thickness.source, part.value);
@@ -148,20 +137,20 @@ class ThicknessMaker {
 
   Raster of_raster() const {
     const Raster source = read_thickness_map();
-    if (at_thickness([&] { return is_finer(source, area_.fraction); })) {
+    if (is_finer(source, area_.fraction)) {
       return of_finer_raster(source);
     }
-    const Raster map = at_thickness([&] { return sampled(source, area_.fraction, Missing::zero); });
+    const Raster map = sampled(source, area_.fraction, Missing::zero);
     require_not_negative(map, &area_.fraction);
-    return times_fraction([&](std::size_t k) { return map.values[k]; });
+    return times_fraction(map);
   }
 
   // Raster cells across an outline may share an area with a ground cell beyond it; this volume is distributed to the
   // other cells.
   Raster of_finer_raster(const Raster& source) const {
-    const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons); });
+    const CoveredRaster part = covered_part(source, area_.polygons);
     require_not_negative(part.values, &part.fraction);
-    const Raster amount = at_thickness([&] { return averaged(part, area_.fraction).amount; });
+    const Raster amount = averaged(part, area_.fraction).amount;
     Raster within = amount;
     for (std::size_t k = 0; k < within.values.size(); ++k) {
       within.values[k] = area_.fraction.values[k] > 0.0 ? within.values[k] : 0.0;
@@ -171,19 +160,6 @@ class ThicknessMaker {
       value *= scale;
     }
     return within;
-  }
-
-  // Heights of the surface above the ground at the points of the area.
-  Raster above_ground_of_area() const {
-    const Raster surface = read_thickness_map();
-    return at_thickness([&] {
-      if (is_finer(surface, area_.fraction)) {
-        return averaged(covered_part(above_ground(surface, input_.ground.as_measured()), area_.polygons),
-                        area_.fraction)
-            .mean;
-      }
-      return above_ground(sampled(surface, area_.fraction, Missing::nothing), input_.ground.as_measured());
-    });
   }
 
   Raster of_surface() const {
@@ -197,7 +173,11 @@ class ThicknessMaker {
       input_.fail("thickness_along",
                   "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
     }
-    const Raster above = above_ground_of_area();
+    const Raster surface = read_thickness_map(), &measured = input_.ground.as_measured();
+    const Raster above =
+        is_finer(surface, area_.fraction)
+            ? averaged(covered_part(above_ground(surface, measured), area_.polygons), area_.fraction).mean
+            : above_ground(sampled(surface, area_.fraction, Missing::nothing), measured);
     Raster thickness = area_.fraction;
     for_each_positive(thickness, [&](int column, int row, double& value) {
       const double difference = above.at(column, row);
@@ -223,11 +203,10 @@ class ThicknessMaker {
     return thickness;
   }
 
-  template <class Value>
-  Raster times_fraction(const Value& value) const {
+  Raster times_fraction(const Raster& map) const {
     Raster thickness = area_.fraction;
     for (std::size_t k = 0; k < thickness.values.size(); ++k) {
-      thickness.values[k] *= thickness.values[k] > 0.0 ? value(k) : 0.0;
+      thickness.values[k] *= thickness.values[k] > 0.0 ? map.values[k] : 0.0;
     }
     return thickness;
   }

@@ -17,42 +17,29 @@ namespace {
 
 using Releases = std::map<std::string, LoadedRelease>;
 
-// Raster accessed by the indices of another layout of the same grid; 0 outside it.
-class ByIndicesOf {
- public:
-  ByIndicesOf(const Raster& layout, const Raster& raster)
-      : raster_(&raster),
-        column_(static_cast<int>(std::lround((layout.x - raster.x) / raster.cell_x))),
-        row_(static_cast<int>(std::lround((layout.y - raster.y) / raster.cell_y))) {}
-
-  [[nodiscard]] double at(int column, int row) const {
-    const int i = column + column_, j = row + row_;
-    const bool is_inside = i >= 0 && j >= 0 && i < raster_->columns && j < raster_->rows;
-    return is_inside ? raster_->at(i, j) : 0.0;
-  }
-
- private:
-  const Raster* raster_;
-  int column_, row_;
-};
+// Values of a raster at the points of a layout of the same grid; 0 outside it.
+Raster placed(const Raster& raster, const Raster& layout) {
+  const auto column_of_first = static_cast<int>(std::lround((raster.x - layout.x) / raster.cell_x));
+  const auto row_of_first = static_cast<int>(std::lround((raster.y - layout.y) / raster.cell_y));
+  Raster result = layout.filled(0.0);
+  for_each_point(result, [&](int column, int row, double& value) {
+    const int i = column - column_of_first, j = row - row_of_first;
+    value = i >= 0 && j >= 0 && i < raster.columns && j < raster.rows ? raster.at(i, j) : 0.0;
+  });
+  return result;
+}
 
 // True if the two lie within a cell of a common point.
 bool touch(const LoadedRelease& one, const LoadedRelease& other) {
   const Raster& spread = one.spread;
-  const ByIndicesOf there(spread, other.spread);
-  const PointWindow shared = points_of(other.spread, spread);
-  const int last_column = std::min(spread.columns, shared.first_column + shared.columns + 1);
-  const int last_row = std::min(spread.rows, shared.first_row + shared.rows + 1);
-  for (int row = std::max(0, shared.first_row - 1); row < last_row; ++row) {
-    for (int column = std::max(0, shared.first_column - 1); column < last_column; ++column) {
-      for (int k = 0; spread.at(column, row) > 0.0 && k < 9; ++k) {
-        if (there.at(column + k % 3 - 1, row + k / 3 - 1) > 0.0) {
-          return true;
-        }
-      }
+  const Raster there = placed(other.spread, layout_of(spread, {-1, -1, spread.columns + 2, spread.rows + 2}));
+  bool found = false;
+  for_each_point(spread, [&](int column, int row, double value) {
+    for (int k = 0; value > 0.0 && k < 9; ++k) {
+      found = found || there.at(column + k % 3, row + k / 3) > 0.0;
     }
-  }
-  return false;
+  });
+  return found;
 }
 
 std::set<std::string> touching_ones(const config::Case& parameters, const Releases& releases) {
@@ -85,54 +72,39 @@ Raster widened_layout(const config::Case& parameters, const std::string& name, c
   return layout.filled(0.0);
 }
 
-// t_b / w_b; outside the body, that of the nearest point.
-Raster thickness_within(const LoadedRelease& loaded, const Raster& layout) {
-  const ByIndicesOf thickness(layout, loaded.release.thickness), spread(layout, loaded.spread);
-  Raster within = layout;
-  for_each_point(within, [&](int column, int row, double& value) {
-    const double fraction = spread.at(column, row);
-    value = fraction > 0.0 ? thickness.at(column, row) / fraction : std::numeric_limits<double>::quiet_NaN();
-  });
-  fill_from_nearest_known(within);
-  return within;
-}
-
-double sum_at(const std::vector<ByIndicesOf>& rasters, int column, int row) {
-  double sum = 0.0;
-  for (const ByIndicesOf& raster : rasters) {
-    sum += raster.at(column, row);
-  }
-  return sum;
-}
-
 void join(const config::Case& parameters, const std::string& name, const Releases& releases, config::Release& release) {
   const LoadedRelease& loaded = releases.at(name);
   const Raster layout = widened_layout(parameters, name, loaded.release.thickness);
-  std::vector<ByIndicesOf> fractions, spreads;
+  Raster all_fractions = layout, all_spreads = layout;
   for (const auto& [other, one] : releases) {
-    fractions.emplace_back(layout, one.fraction);
-    spreads.emplace_back(layout, one.spread);
+    const Raster more_fractions = placed(one.fraction, layout), more_spreads = placed(one.spread, layout);
+    for (std::size_t k = 0; k < layout.values.size(); ++k) {
+      all_fractions.values[k] += more_fractions.values[k];
+      all_spreads.values[k] += more_spreads.values[k];
+    }
   }
-  const ByIndicesOf fraction(layout, loaded.fraction), spread(layout, loaded.spread);
-  release.assigned_thickness = thickness_within(loaded, layout);
+  const Raster fraction = placed(loaded.fraction, layout), spread = placed(loaded.spread, layout);
+  // t_b / w_b; outside the body, that of the nearest point.
+  Raster& assigned = release.assigned_thickness = placed(loaded.release.thickness, layout);
+  for (std::size_t k = 0; k < assigned.values.size(); ++k) {
+    assigned.values[k] =
+        spread.values[k] > 0.0 ? assigned.values[k] / spread.values[k] : std::numeric_limits<double>::quiet_NaN();
+  }
+  fill_from_nearest_known(assigned);
   release.claim = layout;
   Raster own = layout;
-  for (int row = 0; row < layout.rows; ++row) {
-    for (int column = 0; column < layout.columns; ++column) {
-      const std::size_t k = layout.index(column, row);
-      const double all_fractions = sum_at(fractions, column, row), all_spreads = sum_at(spreads, column, row);
-      release.assigned_thickness.values[k] *= std::min(1.0, all_spreads);
-      release.claim.values[k] = all_fractions > 0.0 ? fraction.at(column, row) : spread.at(column, row);
-      const double of_all = all_fractions > 0.0 ? all_fractions : all_spreads;
-      own.values[k] =
-          release.claim.values[k] > 0.0 ? release.assigned_thickness.values[k] * release.claim.values[k] / of_all : 0.0;
-    }
+  for (std::size_t k = 0; k < own.values.size(); ++k) {
+    const bool is_within = all_fractions.values[k] > 0.0;
+    assigned.values[k] *= std::min(1.0, all_spreads.values[k]);
+    release.claim.values[k] = is_within ? fraction.values[k] : spread.values[k];
+    const double of_all = is_within ? all_fractions.values[k] : all_spreads.values[k];
+    own.values[k] = release.claim.values[k] > 0.0 ? assigned.values[k] * release.claim.values[k] / of_all : 0.0;
   }
   // Tapers that end at another body move volume between the two; scaling restores the volume of each.
   const double scale = volume_of(loaded.release.thickness) / volume_of(own);
   for (std::size_t k = 0; k < own.values.size(); ++k) {
     own.values[k] *= scale;
-    release.assigned_thickness.values[k] *= scale;
+    assigned.values[k] *= scale;
   }
   release.thickness = part_of(own, points_of(loaded.release.thickness, own));
 }
