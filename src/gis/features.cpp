@@ -30,17 +30,6 @@ double value_of(const VectorLayer& layer, const Feature& feature, const std::str
                   feature.title, text == feature.texts.end() ? "empty" : "'" + config::shown(text->second) + "'");
 }
 
-void check_apart(const VectorLayer& layer, const std::string& attribute, const Feature& first, const Feature& second) {
-  constexpr double rounding = 1e-6;
-  if (const auto shared = overlap_of(first.polygons, second.polygons, rounding)) {
-    throw UserError(
-        "{}: {} and {} overlap by {} m2 about {}, and their '{}' differs: {:g} and {:g}. Give them the same value, or "
-        "draw them apart.",
-        layer.file, first.title, second.title, rounded_text(shared->area, 3), shared->place, attribute,
-        first.numbers.at(attribute), second.numbers.at(attribute));
-  }
-}
-
 }  // namespace
 
 std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key) {
@@ -105,17 +94,27 @@ std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::stri
     groups[value_of(layer, feature, name)].push_back(&feature);
   }
   std::vector<ValuedArea> areas;
-  for (auto group = groups.begin(); group != groups.end(); ++group) {
+  for (const auto& [value, features] : groups) {
     Polygons all;
-    for (const Feature* feature : group->second) {
+    for (const Feature* feature : features) {
       all.insert(all.end(), feature->polygons.begin(), feature->polygons.end());
-      for (auto other = groups.begin(); other != group; ++other) {
-        for (const Feature* before : other->second) {
-          check_apart(layer, name, *before, *feature);
+      for (const auto& [other_value, others] : groups) {
+        if (other_value == value) {
+          break;
+        }
+        for (const Feature* other : others) {
+          constexpr double rounding = 1e-6;
+          if (const auto shared = overlap_of(other->polygons, feature->polygons, rounding)) {
+            throw UserError(
+                "{}: {} and {} overlap by {} m2 about {}, and their '{}' differs: {:g} and {:g}. Give them the same "
+                "value, or draw them apart.",
+                layer.file, other->title, feature->title, rounded_text(shared->area, 3), shared->place, name,
+                other_value, value);
+          }
         }
       }
     }
-    areas.push_back({group->first, union_of(all)});
+    areas.push_back({value, union_of(all)});
   }
   return areas;
 }

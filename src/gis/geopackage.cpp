@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -15,76 +16,59 @@ namespace thawslide::gis {
 
 namespace {
 
-std::size_t count_of(const MapLayer& layer) {
-  return std::visit([](const auto& features) { return features.size(); }, layer.features);
-}
+// GDAL reports failures of the functions below as errors, which the caller checks.
 
 void set_attributes(OGRFeature& feature, const MapLayer& layer, std::size_t k) {
   for (const Attribute& attribute : layer.attributes) {
     if (const auto* numbers = std::get_if<std::vector<double>>(&attribute.values)) {
-      if (std::isfinite((*numbers)[k])) {
-        feature.SetField(attribute.name.c_str(), (*numbers)[k]);
+      if (std::isfinite(numbers->at(k))) {
+        feature.SetField(attribute.name.c_str(), numbers->at(k));
       }
-    } else if (const std::string& text = std::get<1>(attribute.values)[k]; !text.empty()) {
+    } else if (const std::string& text = std::get<1>(attribute.values).at(k); !text.empty()) {
       feature.SetField(attribute.name.c_str(), text.c_str());
     }
   }
 }
 
-bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReference* reference) {
+void write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReference* reference) {
   constexpr OGRwkbGeometryType types[] = {wkbMultiPolygon, wkbLineString, wkbPoint};
-  for (const Attribute& attribute : layer.attributes) {
-    const std::size_t values = std::visit([](const auto& all) { return all.size(); }, attribute.values);
-    THAWSLIDE_ASSERT(values == count_of(layer), "layer {}: {} features, {} values of {}", layer.name, count_of(layer),
-                     values, attribute.name);
-  }
   OGRLayer* const written = dataset.CreateLayer(layer.name.c_str(), reference, types[layer.features.index()], nullptr);
   if (written == nullptr) {
-    return false;
+    return;
   }
   for (const Attribute& attribute : layer.attributes) {
     OGRFieldDefn field(attribute.name.c_str(), attribute.values.index() == 0 ? OFTReal : OFTString);
-    if (written->CreateField(&field) != OGRERR_NONE) {
-      return false;
-    }
+    written->CreateField(&field);
   }
-  for (std::size_t k = 0; k < count_of(layer); ++k) {
-    OGRFeature feature(written->GetLayerDefn());
-    std::visit(
-        [&](const auto& features) {
+  std::visit(
+      [&](const auto& features) {
+        for (std::size_t k = 0; k < features.size(); ++k) {
+          OGRFeature feature(written->GetLayerDefn());
           const auto geometry = to_geometry(features[k]);
           feature.SetGeometry(&geometry);
-        },
-        layer.features);
-    set_attributes(feature, layer, k);
-    if (written->CreateFeature(&feature) != OGRERR_NONE) {
-      return false;
-    }
-  }
-  return true;
+          set_attributes(feature, layer, k);
+          written->CreateFeature(&feature);
+        }
+      },
+      layer.features);
 }
 
 // Writes the table in which QGIS stores the styles of a GeoPackage's layers; column names are those of QGIS.
-bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
-  if (std::ranges::all_of(layers, [](const MapLayer& layer) { return layer.style.empty(); })) {
-    return true;
-  }
-  OGRLayer* const table = dataset.CreateLayer("layer_styles", nullptr, wkbNone, nullptr);
+void write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
+  const auto has_style = [](const MapLayer& layer) { return !layer.style.empty(); };
+  OGRLayer* const table =
+      std::ranges::any_of(layers, has_style) ? dataset.CreateLayer("layer_styles", nullptr, wkbNone, nullptr) : nullptr;
   if (table == nullptr) {
-    return false;
+    return;
   }
-  bool written = true;
   for (const char* name : {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column", "styleName",
                            "styleQML", "styleSLD", "description", "owner", "ui", "useAsDefault", "update_time"}) {
     const bool is_flag = std::string("useAsDefault") == name, is_time = std::string("update_time") == name;
     OGRFieldDefn field(name, is_flag ? OFTInteger : is_time ? OFTDateTime : OFTString);
     field.SetSubType(is_flag ? OFSTBoolean : OFSTNone);
-    written = written && table->CreateField(&field) == OGRERR_NONE;
+    table->CreateField(&field);
   }
-  for (const MapLayer& layer : layers) {
-    if (layer.style.empty()) {
-      continue;
-    }
+  for (const MapLayer& layer : layers | std::views::filter(has_style)) {
     OGRFeature row(table->GetLayerDefn());
     for (const char* name : {"f_table_catalog", "f_table_schema", "styleSLD", "description", "owner"}) {
       row.SetField(name, "");
@@ -94,9 +78,8 @@ bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
     row.SetField("styleName", layer.name.c_str());
     row.SetField("styleQML", layer.style.c_str());
     row.SetField("useAsDefault", 1);
-    written = written && table->CreateFeature(&row) == OGRERR_NONE;
+    table->CreateFeature(&row);
   }
-  return written;
 }
 
 }  // namespace
@@ -109,17 +92,18 @@ void write_geopackage(const std::string& file, const std::vector<MapLayer>& laye
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoPackage");
   GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  bool written = dataset != nullptr;
   OGRSpatialReference reference = reference_from_wkt(crs);
-  if (written && dataset->StartTransaction() == OGRERR_NONE) {
+  if (dataset != nullptr && dataset->StartTransaction() == OGRERR_NONE) {
     for (const MapLayer& layer : layers) {
-      written = written && write_layer(*dataset, layer, crs.empty() ? nullptr : &reference);
+      write_layer(*dataset, layer, crs.empty() ? nullptr : &reference);
     }
-    written = written && write_styles(*dataset, layers);
-    written = dataset->CommitTransaction() == OGRERR_NONE && written;
+    if (!messages.any_error()) {
+      write_styles(*dataset, layers);
+    }
+    dataset->CommitTransaction();
   }
   dataset.reset();
-  if (!written || messages.any_error()) {
+  if (messages.any_error()) {
     whole.fail(messages.reason());
   }
   whole.publish();

@@ -43,7 +43,8 @@ std::string cause_of_unreadable_raster(const std::string& file) {
         shell_quote(file));
   }
   // After lines of a keyword and a number.
-  static const std::regex begins_with_nan(R"((\s*[a-z]\w*\s+[-+.\d]\S*)+\s+nan\s)", std::regex::icase);
+  static const std::regex begins_with_nan(R"(\s*[a-z]\w*\s+[-+.\d]\S*(\s+[a-z]\w*\s+[-+.\d]\S*)*\s+nan\s)",
+                                          std::regex::icase);
   if (std::regex_search(head.c_str(), begins_with_nan, std::regex_constants::match_continuous)) {
     return fmt::format(
         "the first value of the ASCII grid is nan, which GDAL does not read there. Write the number of NODATA_value in "
@@ -86,24 +87,6 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
     fail_open(file, messages);
   }
   return dataset;
-}
-
-// Detects truncated ASCII grids, because GDAL reports each missing row separately, which takes minutes for millions of
-// rows.
-void require_whole(const std::string& file, GDALDataset& dataset) {
-  VSIStatBufL found;
-  if (std::string(dataset.GetDriverName()) != "AAIGrid" || VSIStatL(file.c_str(), &found) != 0) {
-    return;
-  }
-  const double points = static_cast<double>(dataset.GetRasterXSize()) * dataset.GetRasterYSize();
-  constexpr double per_point = 2.0;  // bytes: a digit and a separator
-  const double least = per_point * points - 1.0;
-  if (static_cast<double>(found.st_size) < least) {
-    throw UserError(
-        "{}: the file is too short for {} x {} values (found {} bytes; needed {:.0f} or more). The file seems to be "
-        "damaged or truncated: copy it again.",
-        file, dataset.GetRasterXSize(), dataset.GetRasterYSize(), found.st_size, least);
-  }
 }
 
 // Layout of the points from GDAL's six coefficients: corner, columns and rows of the upper left pixel.
@@ -202,7 +185,6 @@ RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std
   handle_->dataset = open_raster(file);
   const GdalMessages messages;
   GDALDataset& dataset = *handle_->dataset;
-  require_whole(file, dataset);
   GDALRasterBand* alpha = nullptr;
   handle_->band = band_of_values(file, dataset, alpha);
   layout_ = layout_from(file, dataset, north_up_);

@@ -8,6 +8,8 @@
 
 #include "gis/point_window.hpp"
 
+class OGRCoordinateTransformation;
+
 namespace thawslide::gis {
 
 // Raster properties used in messages about its reference system.
@@ -25,8 +27,6 @@ void require_projection_database();
 
 // "EPSG:31254", or the system's title if it has no number; empty for an empty one.
 [[nodiscard]] std::string name_of(const std::string& wkt);
-
-[[nodiscard]] bool is_geographic(const std::string& wkt);
 
 // False for values beyond 360 or 90, which cannot be longitude and latitude.
 [[nodiscard]] bool can_be_degrees(const Rectangle& extent);
@@ -52,17 +52,13 @@ void require_same_heights(const std::string& file, const std::string& found, con
 class Reprojection {
  public:
   Reprojection(const std::string& from_wkt, const std::string& to_wkt);
-  ~Reprojection();
-  Reprojection(Reprojection&&) noexcept;
-  Reprojection& operator=(Reprojection&&) noexcept;
 
   [[nodiscard]] bool changes_nothing() const { return transformation_ == nullptr; }
   // Transforms x, y in place. Returns false if a point has no coordinates in the other system.
   [[nodiscard]] bool apply(std::vector<double>& x, std::vector<double>& y) const;
 
  private:
-  struct Transformation;
-  std::unique_ptr<Transformation> transformation_;
+  std::shared_ptr<OGRCoordinateTransformation> transformation_;
 };
 
 // A raster in another system, with about its own spacing: bilinear between its points, or codes of the nearest point.

@@ -14,10 +14,6 @@
 
 namespace thawslide::gis {
 
-struct Reprojection::Transformation {
-  std::unique_ptr<OGRCoordinateTransformation> transformation;
-};
-
 Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wkt) {
   if (from_wkt.empty() || to_wkt.empty() || from_wkt == to_wkt) {
     return;
@@ -34,9 +30,8 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
   if (from.IsSame(&to, options) != 0) {
     return;
   }
-  transformation_ = std::make_unique<Transformation>();
-  transformation_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
-  if (transformation_->transformation == nullptr) {
+  transformation_.reset(OGRCreateCoordinateTransformation(&from, &to));
+  if (transformation_ == nullptr) {
     require_projection_database();
     throw UserError(
         "no transformation is available from the coordinate reference system {} to {}{}. Reproject the file to the "
@@ -45,23 +40,14 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
   }
 }
 
-Reprojection::~Reprojection() = default;
-Reprojection::Reprojection(Reprojection&&) noexcept = default;
-Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
-
 bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
   if (transformation_ == nullptr) {
     return true;
   }
   const GdalMessages messages;
   std::vector<int> success(x.size(), 0);
-  transformation_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
-  for (const int one : success) {
-    if (one == 0) {
-      return false;
-    }
-  }
-  return true;
+  transformation_->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
+  return std::ranges::find(success, 0) == success.end();
 }
 
 Raster reprojected(const Raster& raster, const std::string& to_wkt, bool is_code) {
@@ -118,7 +104,7 @@ LikelySystem likely_system(const std::string& file, const std::string& specified
     return {ground, fmt::format("{} specifies no coordinate reference system: that of the DEM, {}, is assumed", name,
                                 name_of(ground))};
   }
-  if (is_geographic(specified) && !can_be_degrees(extent)) {
+  if (reference_from_wkt(specified).IsGeographic() != 0 && !can_be_degrees(extent)) {
     return {
         ground,
         fmt::format("{} specifies degrees ({}), which {}, {} cannot be: the system of the DEM, {}, is assumed", name,

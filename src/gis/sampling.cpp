@@ -39,13 +39,24 @@ AxisWeights overlaps(double coordinate, double width, int count) {
   return made;
 }
 
-// Integral from minus infinity to t of the linear shape function, which is 1 at 0 and decreases to 0 at -1 and 1.
-double linear_integral(double t) {
-  const double s = std::clamp(t, -1.0, 1.0);
-  return s < 0.0 ? 0.5 * (1.0 + s) * (1.0 + s) : 1.0 - 0.5 * (1.0 - s) * (1.0 - s);
-}
+bool is_mean(double width) { return width > 1.0 + 1e-9; }
 
-AxisWeights interpolation(double coordinate, int count) {
+// Linear interpolation, or its mean over an interval.
+AxisWeights surface_weights(double coordinate, double width, int count) {
+  if (is_mean(width)) {
+    // Integral from minus infinity to t of the linear shape function, which is 1 at 0 and decreases to 0 at -1 and 1.
+    const auto integral = [](double t) {
+      const double s = std::clamp(t, -1.0, 1.0);
+      return s < 0.0 ? 0.5 * (1.0 + s) * (1.0 + s) : 1.0 - 0.5 * (1.0 - s) * (1.0 - s);
+    };
+    const double low = coordinate - 0.5 * width, high = coordinate + 0.5 * width;
+    AxisWeights result{std::clamp(static_cast<int>(std::floor(low)), 0, count - 1), {}};
+    const int last = std::clamp(static_cast<int>(std::ceil(high)), 0, count - 1);
+    for (int k = result.first; k <= last; ++k) {
+      result.weights.push_back((integral(high - k) - integral(low - k)) / width);
+    }
+    return result;
+  }
   const int first = std::clamp(static_cast<int>(std::floor(coordinate)), 0, std::max(count - 2, 0));
   const double fraction = coordinate - first;
   // A new point on an old one needs no neighbour, which may have no data.
@@ -53,35 +64,7 @@ AxisWeights interpolation(double coordinate, int count) {
   if (fraction < rounding || count == 1) {
     return {first, {1.0}};
   }
-  if (fraction > 1.0 - rounding) {
-    return {first + 1, {1.0}};
-  }
-  return {first, {1.0 - fraction, fraction}};
-}
-
-AxisWeights mean(double coordinate, double width, int count) {
-  const double low = coordinate - 0.5 * width, high = coordinate + 0.5 * width;
-  const int first = std::clamp(static_cast<int>(std::floor(low)), 0, count - 1);
-  const int last = std::clamp(static_cast<int>(std::ceil(high)), 0, count - 1);
-  AxisWeights result{first, {}};
-  for (int k = first; k <= last; ++k) {
-    result.weights.push_back((linear_integral(high - k) - linear_integral(low - k)) / width);
-  }
-  return result;
-}
-
-bool is_mean(double width) { return width > 1.0 + 1e-9; }
-
-// Weights of the old points for each new one along an axis, which is given by its first point, spacing and number.
-std::vector<AxisWeights> weights_along(double first, double cell, int count, double new_first, double new_cell,
-                                       int new_count, const WeightsOfPoint& weights_of) {
-  std::vector<AxisWeights> all;
-  for (int k = 0; k < new_count; ++k) {
-    all.push_back(weights_of((new_first + k * new_cell - first) / cell, new_cell / cell, count));
-    THAWSLIDE_ASSERT(all.back().first + static_cast<int>(all.back().weights.size()) <= count,
-                     "point {} needs old points from {} of {}", k, all.back().first, count);
-  }
-  return all;
+  return fraction > 1.0 - rounding ? AxisWeights{first + 1, {1.0}} : AxisWeights{first, {1.0 - fraction, fraction}};
 }
 
 // Sums at each point of a layout, over old points with data: of weights times values, and of weights.
@@ -90,10 +73,18 @@ struct WeightedSums {
 };
 
 WeightedSums weighted_sums(const Raster& raster, const Raster& layout, const WeightsOfPoint& weights_of) {
+  // For each new point along an axis, which is given by its first point, spacing and number.
+  const auto along = [&](double first, double cell, int count, double new_first, double new_cell, int new_count) {
+    std::vector<AxisWeights> all;
+    for (int k = 0; k < new_count; ++k) {
+      all.push_back(weights_of((new_first + k * new_cell - first) / cell, new_cell / cell, count));
+    }
+    return all;
+  };
   const std::vector<AxisWeights> along_x =
-      weights_along(raster.x, raster.cell_x, raster.columns, layout.x, layout.cell_x, layout.columns, weights_of);
+      along(raster.x, raster.cell_x, raster.columns, layout.x, layout.cell_x, layout.columns);
   const std::vector<AxisWeights> along_y =
-      weights_along(raster.y, raster.cell_y, raster.rows, layout.y, layout.cell_y, layout.rows, weights_of);
+      along(raster.y, raster.cell_y, raster.rows, layout.y, layout.cell_y, layout.rows);
   const std::size_t columns = along_x.size();
   std::vector<double> row_values(columns * static_cast<std::size_t>(raster.rows));
   std::vector<double> row_weights = row_values;
@@ -162,11 +153,8 @@ Rectangle needed_for(const Raster& new_layout) {
 }
 
 Raster resampled(const Raster& raster, const Raster& new_layout) {
-  const WeightedSums sums = weighted_sums(raster, new_layout, [](double coordinate, double width, int count) {
-    return is_mean(width) ? mean(coordinate, width, count) : interpolation(coordinate, count);
-  });
   const bool is_averaged = is_mean(new_layout.cell_x / raster.cell_x) || is_mean(new_layout.cell_y / raster.cell_y);
-  return means_of(sums, is_averaged ? 0.5 : 1.0 - 1e-9);
+  return means_of(weighted_sums(raster, new_layout, surface_weights), is_averaged ? 0.5 : 1.0 - 1e-9);
 }
 
 bool is_finer(const Raster& raster, const Raster& layout) {

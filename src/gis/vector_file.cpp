@@ -195,7 +195,13 @@ class LayerReader {
     result_.file = file;
     dataset_ = open_vector(file, readable_.path().string(), kind);
     layer_ = &layer_with(file, *dataset_, kind);
-    choose_reprojection(crs);
+    OGREnvelope envelope;
+    const bool has_extent = layer_->GetExtent(&envelope) == OGRERR_NONE;
+    const Rectangle extent =
+        has_extent ? Rectangle{envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY} : Rectangle{};
+    const LikelySystem system = likely_system(file, wkt_from_reference(layer_->GetSpatialRef()), extent, crs);
+    add_warning(system.warning, result_.warnings);
+    reprojection_ = Reprojection(system.wkt, crs);
   }
 
   VectorLayer read() {
@@ -232,22 +238,16 @@ class LayerReader {
     }
   }
 
-  void choose_reprojection(const std::string& crs) {
-    OGREnvelope envelope;
-    const bool has_extent = layer_->GetExtent(&envelope) == OGRERR_NONE;
-    const Rectangle extent =
-        has_extent ? Rectangle{envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY} : Rectangle{};
-    const LikelySystem system = likely_system(result_.file, wkt_from_reference(layer_->GetSpatialRef()), extent, crs);
-    if (!system.warning.empty()) {
-      result_.warnings.push_back(system.warning);
-    }
-    reprojection_ = Reprojection(system.wkt, crs);
-  }
-
   void add_feature(const OGRFeature& source) {
     Feature feature;
-    feature.name = name_of(source);
-    feature.title = title_of(feature.name);
+    read_attributes(source, feature);
+    auto named = feature.texts.find("name");
+    if (named == feature.texts.end()) {
+      named = std::ranges::find_if(feature.texts, [](const auto& each) { return lower_case(each.first) == "name"; });
+    }
+    feature.name = named == feature.texts.end() ? "" : named->second;
+    feature.title = fmt::format("{} {}{}", kind_ == Kind::polygons ? "polygon" : "line", result_.features.size() + 1,
+                                feature.name.empty() ? "" : " (" + config::shown(feature.name) + ")");
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
       throw UserError("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file, feature.title,
                       name_of_kind(kind_));
@@ -259,6 +259,10 @@ class LayerReader {
       result_.warnings.push_back(fmt::format("note: {}: {} has rings within others, which are holes",
                                              name_of_file(result_.file), feature.title));
     }
+    result_.features.push_back(std::move(feature));
+  }
+
+  void read_attributes(const OGRFeature& source, Feature& feature) const {
     for (int index = 0; index < source.GetFieldCount(); ++index) {
       if (!source.IsFieldSetAndNotNull(index)) {
         continue;
@@ -273,20 +277,6 @@ class LayerReader {
         feature.numbers[name] = source.GetFieldAsDouble(index);
       }
     }
-    result_.features.push_back(std::move(feature));
-  }
-
-  std::string name_of(const OGRFeature& source) const {
-    const auto found = std::ranges::find(result_.attributes, "name");
-    const int index = found == result_.attributes.end() ? source.GetFieldIndex("name")
-                                                        : static_cast<int>(found - result_.attributes.begin());
-    return index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? as_utf8(source.GetFieldAsString(index)) : "";
-  }
-
-  std::string title_of(const std::string& name) const {
-    const char* kind = kind_ == Kind::polygons ? "polygon" : "line";
-    return fmt::format("{} {}{}", kind, result_.features.size() + 1,
-                       name.empty() ? "" : " (" + config::shown(name) + ")");
   }
 
   void read_geometry(const OGRGeometry& geometry, Feature& feature) {
