@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "base/composition.hpp"
 #include "base/error.hpp"
 #include "config/checks.hpp"
 #include "config/declaration.hpp"
@@ -113,7 +112,7 @@ void read_tables(const toml::table& root, Case& result, Reading& reading) {
 }  // namespace
 
 std::vector<CaseFile> read_case_files(const fs::path& case_file_or_folder) {
-  return read_with_bases(find_case_file(in_any_composition(case_file_or_folder)));
+  return read_with_bases(find_case_file(case_file_or_folder));
 }
 
 Case read_case(const fs::path& case_file_or_folder, const std::vector<std::string>& sets) {

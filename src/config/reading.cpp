@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/composition.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 
@@ -202,7 +201,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
   }
   std::error_code error;
   const fs::path base = from_command_line ? override->folder : reading.folder;
-  const fs::path whole = in_any_composition((base / path).lexically_normal());
+  const fs::path whole = (base / path).lexically_normal();
   if (!from_command_line) {
     if (fs::path(path).is_absolute() || !lies_within(whole, base)) {
       return fail(node,

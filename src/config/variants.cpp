@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/composition.hpp"
 #include "base/error.hpp"
 #include "config/declaration.hpp"
 #include "config/input_limits.hpp"
@@ -73,7 +72,7 @@ std::string likely_slip(std::string_view description) {
 toml::table parse(const std::string& text, const std::string& file) {
   require_shallow(text, file);
   try {
-    toml::table root = toml::parse(composed(text), std::string_view(file));
+    toml::table root = toml::parse(text, std::string_view(file));
     if (root.empty()) {
       throw UserError(fmt::format(
           "{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].", file));
@@ -99,7 +98,7 @@ std::optional<fs::path> base_of(const toml::table& root, const std::vector<CaseF
   const std::string location =
       fmt::format("{}:{}:{}: case.based_on is \"{}\"", file.string(), begin.line, begin.column, shown(text->get()));
   const fs::path name(text->get());
-  const fs::path base = in_any_composition(file.parent_path() / name);
+  const fs::path base = file.parent_path() / name;
   if (name.has_parent_path()) {
     throw UserError(location + ", which is a path; allowed: the name of a case file of the same folder.");
   }

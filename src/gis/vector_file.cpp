@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/composition.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
@@ -50,9 +49,9 @@ bool has_unknown_encoding(GDALDataset& dataset) {
   return layer.GetMetadataItem("CPG_VALUE", domain) == nullptr && (number == 0 || number == ansi);
 }
 
-// A text that is not UTF-8 is read as Windows-1252, which includes the letters of Latin-1. Letters are composed.
+// A text that is not UTF-8 is read as Windows-1252, which includes the letters of Latin-1.
 std::string as_utf8(const std::string& text) {
-  return CPLIsUTF8(text.c_str(), -1) != 0 ? composed(text) : released(CPLRecode(text.c_str(), "CP1252", CPL_ENC_UTF8));
+  return CPLIsUTF8(text.c_str(), -1) != 0 ? text : released(CPLRecode(text.c_str(), "CP1252", CPL_ENC_UTF8));
 }
 
 // Known cause for which GDAL cannot open a file, with its remedy; empty if there is none.

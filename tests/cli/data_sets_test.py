@@ -6,7 +6,6 @@ Names of files and folders may have characters with a meaning in TOML, in commen
 import os
 import shutil
 import tomllib
-import unicodedata
 from collections.abc import Callable
 from pathlib import Path
 
@@ -209,26 +208,6 @@ def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(tmp_path:
     assert outcome.returncode == 2
     assert b"is not UTF-8, as required for names in a case file" in outcome.stderr
     assert not folder.exists()
-
-
-@pytest.mark.parametrize(("written", "stored"), [("NFC", "NFD"), ("NFD", "NFC")])
-def test_names_of_any_composition(thawslide: Program, tmp_path: Path, slope: Slope, written: str, stored: str) -> None:
-    """Systems and programs write a letter with a mark as one character or as two."""
-    slope.ok(folder=tmp_path / "slide")
-    name, other = (unicodedata.normalize(form, "Südhang Gürtelé") for form in (written, stored))
-    assert name != other
-    (tmp_path / other).mkdir()
-    release = write_rectangle(tmp_path / other / f"{other}.geojson", WEST + 200.0, SOUTH + 250.0, **{other: 24.0})
-    release.write_text(release.read_text().replace('"slide"', f'"{other}"'), encoding="utf-8")
-    keys = sets(
-        body__slide__release=tmp_path / name / f"{name}.geojson", body__slide__thickness=f'{{ attribute = "{name}" }}',
-        body__slide__polygons=f'["{name}"]',
-    )  # fmt: skip
-    (tmp_path / "slide" / "case.toml").rename(tmp_path / "slide" / f"{other}.toml")
-    (tmp_path / "slide" / "case.toml").write_text(f'case.based_on = "{name}.toml"\n', encoding="utf-8")
-    (tmp_path / "slide").rename(tmp_path / other / other)
-    checked = thawslide.json("check", tmp_path / name / name, *keys)
-    assert checked["bodies"][0]["volume_m3"] == pytest.approx(288_000.0, rel=1e-6)
 
 
 @pytest.mark.parametrize(
