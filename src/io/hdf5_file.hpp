@@ -33,22 +33,6 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-// Suppresses error output of the library during its lifetime; the caller reports damaged files.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
 using Shape = std::vector<hsize_t>;
 
 // A file in memory.

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -26,65 +25,15 @@ int open_or_throw(const std::filesystem::path& file, int flags) {
   return descriptor;
 }
 
-// First number of a row with `columns` numbers; empty for a damaged row.
-std::optional<double> time_of(std::string_view row, std::size_t columns) {
-  std::optional<double> time;
-  for (std::size_t k = 0; k < columns; ++k) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number);
-    const bool is_last = k + 1 == columns;
-    if (error != std::errc() || (end == row.data() + row.size()) != is_last || (!is_last && *end != ',')) {
-      return std::nullopt;
-    }
-    time = time.value_or(number);
-    row.remove_prefix(is_last ? row.size() : static_cast<std::size_t>(end - row.data()) + 1);
+// True for a header and the rows of this extent, by their number and the time of the last.
+bool are_rows(const std::string& text, const std::string& header, const HistoryExtent& then) {
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  if (text.rfind(header + "\n", 0) != 0 || text.back() != '\n' || lines != then.rows + 1) {
+    return false;
   }
-  return time;
+  const std::string last = "\n" + shortest(then.last_time);
+  return then.rows == 0 || text.compare(text.rfind('\n', text.size() - 2), last.size(), last) == 0;
 }
-
-// Complete rows of a file up to a time, in ascending order.
-class KeptRows {
- public:
-  KeptRows(std::string_view file, const std::string& header, double last_time)
-      : text_(header + "\n"), has_header_(file.substr(0, text_.size()) == text_) {
-    const auto columns = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
-    for (std::size_t line = has_header_ ? text_.size() : file.find('\n') + 1; line < file.size();) {
-      const std::size_t end = std::min(file.find('\n', line), file.size());
-      const std::optional<double> time = time_of(file.substr(line, end - line), columns);
-      if (time && end < file.size() && *time <= last_time && (times_.empty() || *time > times_.back())) {
-        times_.push_back(*time);
-        text_ += file.substr(line, end + 1 - line);
-      }
-      line = end + 1;
-    }
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
-  [[nodiscard]] HistoryExtent extent() const {
-    return {times_.size(), text_.size(), times_.empty() ? 0.0 : times_.back()};
-  }
-  [[nodiscard]] bool lacks_any(const HistoryExtent& then) const { return times_.size() < then.rows; }
-  // Warning if the file differs from what the run wrote; empty otherwise.
-  [[nodiscard]] std::string warning(const std::filesystem::path& file, bool is_present,
-                                    const HistoryExtent& then) const {
-    const std::string name = file.filename().string();
-    if (!is_present) {
-      return fmt::format("{} was missing: it starts again, without the {} rows up to t = {:g} s", name, then.rows,
-                         then.last_time);
-    }
-    if (lacks_any(then)) {
-      return fmt::format("{} lacks {} of the {} rows up to t = {:g} s, which are missing or damaged", name,
-                         then.rows - times_.size(), then.rows, then.last_time);
-    }
-    return has_header_ && times_.size() == then.rows && text_.size() == then.bytes
-               ? ""
-               : fmt::format("{} is not as the run wrote it; its rows are complete and are kept", name);
-  }
-
- private:
-  std::string text_;  // including the header
-  bool has_header_;
-  std::vector<double> times_;
-};
 
 }  // namespace
 
@@ -139,18 +88,24 @@ HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, c
                                             const HistoryExtent& then, std::vector<std::string>& warnings) {
   const bool is_present = std::filesystem::exists(file);
   const std::string text = is_present ? read_file(file) : "";
-  const KeptRows kept(text, header, then.last_time);
-  if (std::string warning = kept.warning(file, is_present, then); !warning.empty()) {
-    if (is_present && kept.lacks_any(then)) {
+  std::string kept = text.substr(0, then.bytes);
+  HistoryExtent extent = then;
+  if (kept.size() != then.bytes || !are_rows(kept, header, then)) {
+    std::string warning =
+        fmt::format("{} {}: it starts again, without the {} rows up to t = {:g} s", file.filename().string(),
+                    is_present ? "is damaged or was changed" : "was missing", then.rows, then.last_time);
+    if (is_present) {
       const std::filesystem::path aside = name_for_damaged(file);
       write_file_atomically(aside, text);
       warning += fmt::format("; what there was is kept as {}", aside.filename().string());
     }
     warnings.push_back(std::move(warning));
+    kept = header + "\n";
+    extent = {0, kept.size(), 0.0};
   }
-  write_file_atomically(file, kept.text());
+  write_file_atomically(file, kept);
   HistoryWriter writer(file, open_or_throw(file, O_NOFOLLOW), header);
-  writer.extent_ = kept.extent();
+  writer.extent_ = extent;
   return writer;
 }
 

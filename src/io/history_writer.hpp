@@ -28,8 +28,8 @@ class HistoryWriter {
   explicit HistoryWriter(const std::filesystem::path& file);
   // Creates a file in a run folder: an existing file, link or pipe is replaced, and the target of a link is kept.
   static HistoryWriter start_in_run(const std::filesystem::path& file);
-  // Continues a file that once had the extent `then`, with these columns: keeps complete rows up to there and appends.
-  // If some of them are missing, the file is kept under another name, and a warning lists the gaps.
+  // Continues a file that once had the extent `then`, with these columns: keeps the rows up to there and appends. A
+  // file that does not contain them is kept under another name; the history then starts again, with a warning.
   static HistoryWriter continue_after(const std::filesystem::path& file, const std::string& header,
                                       const HistoryExtent& then, std::vector<std::string>& warnings);
 

@@ -14,19 +14,6 @@ std::size_t written_components(mpm::FieldShape shape) {
   return shape == mpm::FieldShape::scalar ? 1 : shape == mpm::FieldShape::vector ? 3 : 6;
 }
 
-SnapshotField copy_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
-  SnapshotField copy{
-      field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
-  std::vector<double> values;
-  field.append_values(order, copy.components, values);
-  if (copy.integer) {
-    copy.integers.assign(values.begin(), values.end());
-  } else {
-    copy.numbers = std::move(values);
-  }
-  return copy;
-}
-
 // Group "basal_segments": one dataset per column, whose name ends with the unit.
 void write_base(hid_t file, const NamedNumbers& base) {
   if (base.empty()) {
@@ -51,6 +38,18 @@ std::vector<std::size_t> order_by_id(const mpm::Particles<Dim>& particles) {
 }
 
 template <int Dim>
+std::vector<SnapshotField> snapshot_fields(const mpm::Particles<Dim>& particles) {
+  std::vector<SnapshotField> fields;
+  for (const mpm::FieldBase* field : particles.fields.all()) {
+    if (field->is_in_snapshots()) {
+      const mpm::FieldInfo& info = field->info();
+      fields.push_back({info.name, info.unit, written_components(info.shape), field->is_integer(), {}});
+    }
+  }
+  return fields;
+}
+
+template <int Dim>
 Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step) {
   const std::vector<std::size_t> order = order_by_id(particles);
@@ -62,9 +61,12 @@ Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double
                                         : 0.0);
     }
   }
+  snapshot.fields = snapshot_fields(particles);
+  auto next = snapshot.fields.begin();
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->is_in_snapshots()) {
-      snapshot.fields.push_back(copy_field(*field, order));
+      field->append_values(order, next->components, next->values);
+      ++next;
     }
   }
   return snapshot;
@@ -98,9 +100,10 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
   for (const SnapshotField& field : snapshot.fields) {
     const hdf5::Shape shape = field.components == 1 ? hdf5::Shape{count} : hdf5::Shape{count, field.components};
     if (field.integer) {
-      hdf5::write_dataset(data, field.name, shape, field.integers.data());
+      const std::vector<std::int64_t> integers(field.values.begin(), field.values.end());
+      hdf5::write_dataset(data, field.name, shape, integers.data());
     } else {
-      hdf5::write_dataset(data, field.name, shape, field.numbers.data());
+      hdf5::write_dataset(data, field.name, shape, field.values.data());
     }
     const hdf5::Handle dataset(H5Dopen2(data, field.name.c_str(), H5P_DEFAULT), H5Dclose, field.name.c_str());
     hdf5::write_attribute(dataset, "unit", field.unit);
@@ -112,17 +115,16 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
 template <int Dim>
 std::size_t snapshot_bytes_of_particle(const mpm::Particles<Dim>& particles) {
   std::size_t numbers = 3 + 2;  // coordinates, and two numbers of the vertex
-  for (const mpm::FieldBase* field : particles.fields.all()) {
-    numbers += field->is_in_snapshots() ? written_components(field->info().shape) : 0;
+  for (const SnapshotField& field : snapshot_fields(particles)) {
+    numbers += field.components;
   }
   return numbers * sizeof(double);
 }
 
-template std::size_t snapshot_bytes_of_particle<2>(const mpm::Particles<2>&);
-template std::size_t snapshot_bytes_of_particle<3>(const mpm::Particles<3>&);
-
-#define THAWSLIDE_INSTANTIATE(Dim)                                                \
-  template std::vector<std::size_t> order_by_id<Dim>(const mpm::Particles<Dim>&); \
+#define THAWSLIDE_INSTANTIATE(Dim)                                                      \
+  template std::vector<SnapshotField> snapshot_fields<Dim>(const mpm::Particles<Dim>&); \
+  template std::size_t snapshot_bytes_of_particle<Dim>(const mpm::Particles<Dim>&);     \
+  template std::vector<std::size_t> order_by_id<Dim>(const mpm::Particles<Dim>&);       \
   template Snapshot make_snapshot<Dim>(const mpm::Particles<Dim>&, const Vector<double, Dim>&, double, std::int64_t);
 THAWSLIDE_INSTANTIATE(2)
 THAWSLIDE_INSTANTIATE(3)

@@ -16,8 +16,7 @@ struct SnapshotField {
   std::string name, unit;
   std::size_t components;
   bool integer;
-  std::vector<double> numbers;  // one of these two is filled, in particle order
-  std::vector<std::int64_t> integers;
+  std::vector<double> values;  // in particle order
 };
 
 struct Snapshot {
@@ -30,7 +29,11 @@ struct Snapshot {
   [[nodiscard]] std::size_t particles() const { return points.size() / 3; }
 };
 
-// Fields marked for snapshots, with rows by id, the local origin added, three components in 2D (z = 0), tensors as xx
+// Fields marked for snapshots, without values.
+template <int Dim>
+std::vector<SnapshotField> snapshot_fields(const mpm::Particles<Dim>& particles);
+
+// These fields with rows by id, the local origin added, three components in 2D (z = 0), tensors as xx
 // yy zz xy yz xz.
 template <int Dim>
 Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,

@@ -1,12 +1,10 @@
 #include "io/snapshot_series.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <map>
 
 #include "base/atomic_file.hpp"
 #include "base/clocks.hpp"
-#include "config/input_limits.hpp"
 #include "io/files.hpp"
 #include "io/hdf5_file.hpp"
 
@@ -19,56 +17,6 @@ namespace {
 constexpr double seconds_between_indices = 5.0;
 
 std::string file_name(std::size_t number) { return fmt::format("snapshots/{:06d}.vtkhdf", number); }
-
-// Type of an attribute, which must be scalar: the library writes as many values as the file specifies.
-hdf5::Handle type_of_one_value(hid_t attribute, const char* name) {
-  const hdf5::Handle space(H5Aget_space(attribute), H5Sclose, name);
-  THAWSLIDE_ASSERT(H5Sget_simple_extent_type(space) == H5S_SCALAR, "attribute {} is not one value", name);
-  return {H5Aget_type(attribute), H5Tclose, name};
-}
-
-double read_number(hid_t object, const char* name) {
-  const hdf5::Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, name);
-  const hdf5::Handle type = type_of_one_value(attribute, name);
-  THAWSLIDE_ASSERT(H5Tget_class(type) == H5T_FLOAT, "attribute {} is no number", name);
-  double value = 0.0;
-  THAWSLIDE_ASSERT(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) >= 0, "attribute {} cannot be read", name);
-  THAWSLIDE_ASSERT(std::isfinite(value), "attribute {} is {}", name, value);
-  return value;
-}
-
-std::string read_unit(hid_t dataset) {
-  const hdf5::Handle attribute(H5Aopen(dataset, "unit", H5P_DEFAULT), H5Aclose, "unit");
-  const hdf5::Handle type = type_of_one_value(attribute, "unit");
-  // The library returns a pointer for a text of variable length.
-  THAWSLIDE_ASSERT(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0,
-                   "attribute unit is no plain text");
-  const std::size_t size = H5Tget_size(type);
-  std::string text(size, '\0');
-  THAWSLIDE_ASSERT(H5Aread(attribute, type, text.data()) >= 0, "attribute unit cannot be read");
-  return text;
-}
-
-std::string name_of_field(hid_t group, hsize_t number) {
-  char name[256] = "";
-  const ssize_t length =
-      H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, name, sizeof name, H5P_DEFAULT);
-  THAWSLIDE_ASSERT(length > 0 && static_cast<std::size_t>(length) < sizeof name, "field {} of a snapshot", number);
-  return name;
-}
-
-struct FieldShape {
-  hsize_t rows, components;
-};
-
-FieldShape shape_of(hid_t dataset) {
-  const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "space");
-  hsize_t shape[2] = {0, 1};
-  const int rank = H5Sget_simple_extent_ndims(space);
-  THAWSLIDE_ASSERT(rank == 1 || rank == 2, "a field of {} dimensions", rank);
-  H5Sget_simple_extent_dims(space, shape, nullptr);
-  return {shape[0], shape[1]};
-}
 
 // Files NNNNNN.vtkhdf by number.
 std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
@@ -91,10 +39,13 @@ SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexe
   make_folder(folder / "snapshots");
 }
 
-SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_t count,
-                                              std::vector<std::string>& warnings) {
+SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, const std::vector<double>& state,
+                                              std::vector<SnapshotField> fields, std::vector<std::string>& warnings) {
   SnapshotSeries series(folder);
-  series.next_ = count;
+  series.fields_ = std::move(fields);
+  StateNumbers numbers(state, "snapshots");
+  const auto next_whole = [&] { return static_cast<std::size_t>(numbers.whole(largest_whole)); };
+  series.next_ = next_whole();
   std::string lost;
   std::size_t expected = 0;
   const auto report_lost_before = [&](std::size_t number) {
@@ -103,57 +54,43 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
       lost += number - expected > 1 ? fmt::format(" to {:06d}", number - 1) : "";
     }
   };
-  for (const auto& [number, file] : numbered_files(folder / "snapshots")) {
-    if (number >= count) {
-      remove_or_throw(file);
-    } else if (series.restore_snapshot(number, file)) {
-      report_lost_before(number);
-      expected = number + 1;
+  while (numbers.left() > 0) {
+    const Entry entry{next_whole(), numbers.next_finite(), next_whole(), next_whole()};
+    const fs::path file = folder / file_name(entry.number);
+    if (fs::is_regular_file(file) && fs::file_size(file) == entry.bytes) {
+      report_lost_before(entry.number);
+      expected = entry.number + 1;
+      series.entries_.push_back(entry);
     }
   }
-  report_lost_before(count);
+  report_lost_before(series.next_);
   if (!lost.empty()) {
-    warnings.push_back(fmt::format(
-        "of the {} snapshots up to here these are missing or cannot be read: {}; particles.vtkhdf omits them", count,
-        lost));
+    warnings.push_back(
+        fmt::format("of the {} snapshots up to here these are missing or damaged: {}; particles.vtkhdf omits them",
+                    series.next_, lost));
+  }
+  for (const auto& [number, file] : numbered_files(folder / "snapshots")) {
+    if (number >= series.next_) {
+      remove_or_throw(file);
+    }
   }
   return series;
 }
 
-// Returns whether the file could be read.
-bool SnapshotSeries::restore_snapshot(std::size_t number, const fs::path& file) {
-  const hdf5::Silence silence;
-  if (!config::other_kind_of_file(file).empty()) {
-    return false;
+std::vector<double> SnapshotSeries::state() const {
+  std::vector<double> numbers{static_cast<double>(next_)};
+  for (const Entry& entry : entries_) {
+    numbers.insert(numbers.end(), {static_cast<double>(entry.number), entry.time, static_cast<double>(entry.particles),
+                                   static_cast<double>(entry.bytes)});
   }
-  try {
-    const hdf5::Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file.c_str());
-    const hdf5::Handle root(H5Gopen2(opened, "VTKHDF", H5P_DEFAULT), H5Gclose, "VTKHDF");
-    Entry entry{number, read_number(root, "time"), 0};
-    const hdf5::Handle data(H5Gopen2(root, "PointData", H5P_DEFAULT), H5Gclose, "PointData");
-    H5G_info_t info{};
-    THAWSLIDE_ASSERT(H5Gget_info(data, &info) >= 0, "PointData cannot be read");
-    std::vector<Column> columns;
-    for (hsize_t field = 0; field < info.nlinks; ++field) {
-      const std::string name = name_of_field(data, field);
-      const hdf5::Handle dataset(H5Dopen2(data, name.c_str(), H5P_DEFAULT), H5Dclose, name.c_str());
-      const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, "type");
-      const FieldShape shape = shape_of(dataset);
-      THAWSLIDE_ASSERT(field == 0 || shape.rows == entry.particles, "{} rows of {}", shape.rows, name);
-      entry.particles = shape.rows;
-      columns.push_back({name, read_unit(dataset), shape.components, H5Tget_class(type) == H5T_INTEGER});
-    }
-    entries_.push_back(entry);
-    columns_ = std::move(columns);
-  } catch (const InternalError&) {  // not written by a run
-    return false;
-  }
-  return true;
+  return numbers;
 }
 
 void SnapshotSeries::finish_writing() {
   if (writing_.valid()) {
-    writer_seconds_ += writing_.get();
+    const Written written = writing_.get();
+    writer_seconds_ += written.seconds;
+    entries_.back().bytes = written.bytes;
   }
 }
 
@@ -164,16 +101,16 @@ void SnapshotSeries::add(Snapshot snapshot) {
     write_index();
   }
   const fs::path file = folder_ / file_name(next_);
-  const Entry entry{next_++, snapshot.time, snapshot.particles()};
-  columns_.clear();
+  const Entry entry{next_++, snapshot.time, snapshot.particles(), 0};
+  fields_.clear();
   for (const SnapshotField& field : snapshot.fields) {
-    columns_.push_back({field.name, field.unit, field.components, field.integer});
+    fields_.push_back({field.name, field.unit, field.components, field.integer, {}});
   }
   writing_ = std::async(std::launch::async, [file, snapshot = std::move(snapshot)]() mutable {
     const std::vector<std::byte> bytes = snapshot_bytes(snapshot);
     snapshot = {};
     write_file_atomically(file, bytes.data(), bytes.size());
-    return thread_clock();
+    return Written{thread_clock(), bytes.size()};
   });
   entries_.push_back(entry);
 }
@@ -245,8 +182,8 @@ void SnapshotSeries::write_steps(std::int64_t root) const {
   hdf5::write_dataset(group, "CellOffsets", {steps, 4}, cells.data());
   hdf5::write_dataset(group, "ConnectivityIdOffsets", {steps, 4}, cells.data());
   const hdf5::Handle offsets = hdf5::make_group(group, "PointDataOffsets");
-  for (const Column& column : columns_) {
-    hdf5::write_dataset(offsets, column.name, {steps}, points.data());
+  for (const SnapshotField& field : fields_) {
+    hdf5::write_dataset(offsets, field.name, {steps}, points.data());
   }
 }
 
@@ -267,10 +204,10 @@ void SnapshotSeries::write_index() {
   write_cells(root, counts);
   {
     const hdf5::Handle data = hdf5::make_group(root, "PointData");
-    for (const Column& column : columns_) {
-      write_virtual(data, column.name, "/VTKHDF/PointData/" + column.name, column.components, 0, column.integer);
-      const hdf5::Handle dataset(H5Dopen2(data, column.name.c_str(), H5P_DEFAULT), H5Dclose, column.name.c_str());
-      hdf5::write_attribute(dataset, "unit", column.unit);
+    for (const SnapshotField& field : fields_) {
+      write_virtual(data, field.name, "/VTKHDF/PointData/" + field.name, field.components, 0, field.integer);
+      const hdf5::Handle dataset(H5Dopen2(data, field.name.c_str(), H5P_DEFAULT), H5Dclose, field.name.c_str());
+      hdf5::write_attribute(dataset, "unit", field.unit);
     }
   }
   write_steps(root);

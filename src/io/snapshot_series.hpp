@@ -15,10 +15,10 @@ class SnapshotSeries {
  public:
   // Starts with no snapshots; creates folder/snapshots.
   explicit SnapshotSeries(const std::filesystem::path& folder);
-  // Continues the series after its first `count` snapshots and removes later ones. A warning lists earlier ones that
-  // are missing or unreadable; the index omits these.
-  static SnapshotSeries continue_after(const std::filesystem::path& folder, std::size_t count,
-                                       std::vector<std::string>& warnings);
+  // Continues a series that once had this state and removes later snapshots. A warning lists earlier ones that are
+  // missing or of another size; the index omits these. fields: of its next snapshot, without values.
+  static SnapshotSeries continue_after(const std::filesystem::path& folder, const std::vector<double>& state,
+                                       std::vector<SnapshotField> fields, std::vector<std::string>& warnings);
 
   // Writes folder/snapshots/NNNNNN.vtkhdf in parallel with the caller. Before that, writes the index of the snapshots
   // so far if it is more than some seconds old. Throws WriteError if this snapshot or the previous one could not be
@@ -30,8 +30,9 @@ class SnapshotSeries {
   // snapshots.
   void write_index();
 
-  // Number of snapshots written, whether or not they still exist.
-  [[nodiscard]] std::size_t size() const { return next_; }
+  // State for a checkpoint: number of snapshots written, then number, time, particles and bytes of each in the index.
+  // Requires that all are written.
+  [[nodiscard]] std::vector<double> state() const;
   // CPU time of writing snapshots in parallel with the caller [s], without the last one while it is being written.
   [[nodiscard]] double writer_seconds() const { return writer_seconds_; }
 
@@ -39,25 +40,23 @@ class SnapshotSeries {
   struct Entry {
     std::size_t number;
     double time;
-    std::size_t particles;
+    std::size_t particles, bytes;  // bytes: of the file, once written
   };
-  struct Column {
-    std::string name, unit;
-    std::size_t components;
-    bool integer;
+  struct Written {
+    double seconds;  // of CPU time
+    std::size_t bytes;
   };
-  bool restore_snapshot(std::size_t number, const std::filesystem::path& file);
   void write_cells(std::int64_t root, const std::vector<std::int64_t>& counts) const;
   void write_steps(std::int64_t root) const;
   void write_virtual(std::int64_t parent, const std::string& name, const std::string& source, std::size_t components,
                      std::size_t extra_rows, bool integer) const;
 
   std::filesystem::path folder_;
-  std::vector<Entry> entries_;  // readable snapshots
-  std::size_t next_ = 0;        // number of the next one
-  std::vector<Column> columns_;
+  std::vector<Entry> entries_;         // readable snapshots
+  std::size_t next_ = 0;               // number of the next one
+  std::vector<SnapshotField> fields_;  // of the last snapshot, without values
   std::chrono::steady_clock::time_point indexed_;
-  std::future<double> writing_;  // the last snapshot; HDF5 is used by one thread at a time
+  std::future<Written> writing_;  // the last snapshot; HDF5 is used by one thread at a time
   double writer_seconds_ = 0.0;
 };
 

@@ -1,5 +1,7 @@
 #include "run/run_output.hpp"
 
+#include <array>
+
 #include "base/atomic_file.hpp"
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
@@ -109,33 +111,27 @@ std::vector<FrontAt> fronts_of(const std::vector<double>& numbers) {
 }
 
 constexpr const char* fronts_block = "fronts";
-constexpr const char* files_block = "files";  // their extent at the checkpoint
+constexpr const char* files_block = "files";  // extents of history and probes
+constexpr const char* snapshots_block = "snapshots";
 
-// Extent of growing files at a checkpoint.
-struct FilesThen {
-  std::size_t snapshots = 0;
-  io::HistoryExtent history, probes;
-};
-
-std::vector<double> numbers_of(const FilesThen& files) {
-  std::vector<double> numbers{static_cast<double>(files.snapshots)};
-  for (const io::HistoryExtent& each : {files.history, files.probes}) {
+std::vector<double> numbers_of(const io::HistoryExtent& history, const io::HistoryExtent& probes) {
+  std::vector<double> numbers;
+  for (const io::HistoryExtent& each : {history, probes}) {
     numbers.insert(numbers.end(), {static_cast<double>(each.rows), static_cast<double>(each.bytes), each.last_time});
   }
   return numbers;
 }
 
-FilesThen files_of(const std::vector<double>& numbers) {
+std::array<io::HistoryExtent, 2> extents_of(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "files");
-  FilesThen files;
-  files.snapshots = static_cast<std::size_t>(state.whole(largest_whole));
-  for (io::HistoryExtent* each : {&files.history, &files.probes}) {
-    each->rows = static_cast<std::size_t>(state.whole(largest_whole));
-    each->bytes = static_cast<std::size_t>(state.whole(largest_whole));
-    each->last_time = state.next_finite();
+  std::array<io::HistoryExtent, 2> extents;
+  for (io::HistoryExtent& each : extents) {
+    each.rows = static_cast<std::size_t>(state.whole(largest_whole));
+    each.bytes = static_cast<std::size_t>(state.whole(largest_whole));
+    each.last_time = state.next_finite();
   }
   state.expect_end();
-  return files;
+  return extents;
 }
 
 }  // namespace
@@ -191,16 +187,17 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
                                       io::Provenance earlier, std::string case_text) {
   sim::RunRecords<Dim> records(simulation, simulation.site());
   records.restore(blocks);
-  const FilesThen then = files_of(block_of(blocks, files_block));
+  const auto [history_then, probes_then] = extents_of(block_of(blocks, files_block));
   std::vector<std::string>& warnings = earlier.parts.back().warnings;
   const auto continued = [&](const char* name, const io::HistoryWriter::Row& row, const io::HistoryExtent& extent) {
     return io::HistoryWriter::continue_after(folder / name, io::header_of(row), extent, warnings);
   };
-  io::HistoryWriter history = continued("history.csv", records.history_row(simulation), then.history);
-  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(folder, then.snapshots, warnings);
+  io::HistoryWriter history = continued("history.csv", records.history_row(simulation), history_then);
+  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(
+      folder, block_of(blocks, snapshots_block), io::snapshot_fields(simulation.particles()), warnings);
   RunOutput output(folder, std::move(records), std::move(history), std::move(snapshots));
   if (output.records_.has_probes()) {
-    output.probes_.emplace(continued("probes.csv", output.records_.probe_row(simulation), then.probes));
+    output.probes_.emplace(continued("probes.csv", output.records_.probe_row(simulation), probes_then));
   }
   write_missing_files(folder, simulation);
   output.provenance_ = std::move(earlier);
@@ -313,8 +310,8 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
       probes_->synchronize();
     }
     NamedNumbers blocks = records_.state();
-    blocks[files_block] =
-        numbers_of({snapshots_.size(), history_.extent(), probes_ ? probes_->extent() : io::HistoryExtent()});
+    blocks[files_block] = numbers_of(history_.extent(), probes_ ? probes_->extent() : io::HistoryExtent());
+    blocks[snapshots_block] = snapshots_.state();
     if constexpr (Dim == 3) {
       blocks[fronts_block] = numbers_of(fronts_);
     }

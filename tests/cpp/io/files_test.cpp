@@ -160,11 +160,11 @@ TEST_F(Files, SnapshotsAreSortedByIdAndReproducible) {
   EXPECT_EQ(first.points[2], 0.0) << "z in the plane";
   for (const SnapshotField& field : first.fields) {
     if (field.name == "id") {
-      EXPECT_EQ(field.integers[5], 5);
+      EXPECT_EQ(field.values[5], 5);
     }
     if (field.name == "stress") {
       EXPECT_EQ(field.components, 6U);
-      EXPECT_EQ(field.numbers[4], 0.0) << "yz";
+      EXPECT_EQ(field.values[4], 0.0) << "yz";
     }
   }
   // The local origin is added back.

@@ -74,7 +74,7 @@ void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined) 
   ASSERT_EQ(snapshot.fields[0].name, "id");
   std::size_t row = 0;
   for (const auto& [id, p] : by_id) {
-    EXPECT_EQ(snapshot.fields[0].integers[row], id);
+    EXPECT_EQ(snapshot.fields[0].values[row], static_cast<double>(id));
     EXPECT_EQ(snapshot.points[3 * row], particles.position(p, 0) + simulation.model().origin[0]);
     ++row;
   }
