@@ -82,27 +82,13 @@ std::string text_of(const config::Roughness& ground) {
       filter, 100.0 * ground.apparent_friction, valleys);
 }
 
-// Text such as "3 checkpoints of 1.2 MB", and their growth, if any.
-std::string checkpoints_text(const run::DiskNeed& need) {
-  std::string text = fmt::format("{:.0f} checkpoints of {}", need.checkpoints, size_text(need.checkpoint_at_start));
-  return need.checkpoint > need.checkpoint_at_start
-             ? text + fmt::format(" at the start and about {} after spreading", size_text(need.checkpoint))
-             : text;
-}
-
 std::string text_of(const run::DiskNeed& need, double free) {
-  std::string of_maps;
-  if (need.maps > 0.0) {
-    const std::string sizes = need.ground_maps == 0.0
-                                  ? fmt::format("of {}", size_text(need.map))
-                                  : fmt::format("({:.0f} of {}, {:.0f} of {})", need.maps, size_text(need.map),
-                                                need.ground_maps, size_text(need.ground_map));
-    of_maps = fmt::format(", {:.0f} maps {} before they are compressed", need.maps + need.ground_maps, sizes);
-  }
-  return fmt::format("  disk        about {}: {} snapshots of {}, {}, history {}, inputs {}{}; {} are free\n",
-                     size_text(need.total()), count_text(need.snapshots), size_text(need.snapshot),
-                     checkpoints_text(need), size_text(need.history), size_text(need.inputs), of_maps,
-                     std::isfinite(free) ? size_text(free) : "unknown amounts");
+  return fmt::format(
+      "  disk        about {}: {} snapshots of {}, {:.0f} checkpoints of {}, history {}, inputs {}{}; {} are free\n",
+      size_text(need.total()), count_text(need.snapshots), size_text(need.snapshot), need.checkpoints,
+      size_text(need.checkpoint), size_text(need.history), size_text(need.inputs),
+      need.maps > 0.0 ? fmt::format(", maps {} before they are compressed", size_text(need.maps)) : "",
+      std::isfinite(free) ? size_text(free) : "unknown amounts");
 }
 
 Json json_of(const sim::BodyFigures& body) {
@@ -150,13 +136,9 @@ Json json_of(const run::DiskNeed& need, double free, const std::string& folder) 
           {"snapshot_bytes", need.snapshot},
           {"checkpoints", need.checkpoints},
           {"checkpoint_bytes", need.checkpoint},
-          {"checkpoint_bytes_at_start", need.checkpoint_at_start},
           {"history_rows", need.history_rows},
           {"history_bytes", need.history},
-          {"maps", need.maps},
-          {"map_bytes", need.map},
-          {"ground_maps", need.ground_maps},
-          {"ground_map_bytes", need.ground_map},
+          {"maps_bytes", need.maps},
           {"inputs_bytes", need.inputs},
           {"free_bytes", std::isfinite(free) ? Json(free) : Json()},
           {"folder", folder}};

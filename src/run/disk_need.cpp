@@ -23,8 +23,6 @@ namespace {
 
 constexpr double bytes_of_number = 19.0;      // in history.csv, including the comma: 16 digits, a point, an exponent
 constexpr double columns_of_probe = 4.0;      // in probes.csv, for a section; a point has fewer
-constexpr double generations = 3.0;           // of checkpoints: two, and the one being written
-constexpr double ground_map_count = 2.0;      // terrain and release, on the DEM's points
 constexpr double bytes_besides_points = 1e4;  // of a snapshot, and of a checkpoint, which contains the case
 constexpr double most_of_free = 0.9;          // fraction of the free disk that a run may use without a warning
 constexpr double gigabyte = 1e9;
@@ -48,28 +46,15 @@ double bytes_of_files(const config::Case& parameters) {
   return bytes;
 }
 
-// Size of a visited map cell in a checkpoint: its number, and its state.
-constexpr double bytes_of_map_cell = (1.0 + sim::map_cell_numbers) * sizeof(double);
-
-// Sets the size of checkpoints. The number of bed columns is constant, and that of particles unless they are split.
+// Maps at the end of the run; those of the ground are on the points of the DEM.
 template <int Dim>
-void count_checkpoint(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
-  const double of_particles =
-      static_cast<double>(simulation.particles().size()) * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>());
-  const std::size_t numbers_of_bed = simulation.bed() == nullptr ? 0 : simulation.bed()->state().size();
-  const double lasting = bytes_besides_points + of_particles + static_cast<double>(numbers_of_bed * sizeof(double));
-  // The first step creates columns: assume the maximum number, and the same size as in memory.
-  const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(simulation.parameters(), simulation.site());
-  const double columns = sim::memory_need<Dim>(simulation.parameters(), simulation.site(), bodies).columns;
-  double of_maps = 0.0, most_of_maps = 0.0;
-  if (maps != nullptr) {
-    maps->for_cells([&](int, int, const sim::MapCell&) { of_maps += bytes_of_map_cell; });
-    most_of_maps = static_cast<double>(maps->map_grid().columns) * maps->map_grid().rows * bytes_of_map_cell;
-  }
-  need.checkpoints = generations;
-  need.checkpoint_at_start = lasting + columns / sim::usual_spread + of_maps;
-  need.checkpoint = lasting + of_particles * (sim::splitting_factor(simulation.parameters()) - 1.0) + columns +
-                    std::min(sim::usual_spread * of_maps, most_of_maps);
+double bytes_of_maps(const sim::Simulation<Dim>& simulation, const sim::MapGrid& grid) {
+  constexpr double ground_maps = 2.0;  // terrain and release
+  const Raster* ground = simulation.site().ground.get();
+  const double maps = static_cast<double>(sim::map_kinds().size()) + (simulation.model().ground ? 1.0 : 0.0);
+  const double points = maps * grid.columns * grid.rows +
+                        ground_maps * (ground == nullptr ? 0.0 : static_cast<double>(ground->values.size()));
+  return points * sizeof(double);
 }
 
 }  // namespace
@@ -84,21 +69,17 @@ DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* 
   need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
   need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>(simulation.particles())) +
                   bytes_besides_points;
-  count_checkpoint(simulation, maps, need);
+  // A checkpoint contains what is in memory: assume the same size.
+  const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(parameters, simulation.site());
+  const sim::MemoryNeed memory = sim::memory_need<Dim>(parameters, simulation.site(), bodies);
+  need.checkpoint = particles * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) + bytes_besides_points +
+                    memory.columns + memory.bed + memory.maps;
   need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps, false) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +
                          columns_of_probe * static_cast<double>(parameters.probes.size());
   need.history = need.history_rows * columns * bytes_of_number;
   need.inputs = bytes_of_files(parameters);
-  if (maps != nullptr && can_write_maps()) {
-    const sim::MapGrid& grid = maps->map_grid();
-    need.maps = static_cast<double>(sim::map_kinds().size()) + (simulation.model().ground ? 1.0 : 0.0);
-    need.map = static_cast<double>(grid.columns) * grid.rows * sizeof(double);
-    if (const Raster* ground = simulation.site().ground.get()) {
-      need.ground_maps = ground_map_count;
-      need.ground_map = static_cast<double>(ground->values.size() * sizeof(double));
-    }
-  }
+  need.maps = maps != nullptr && can_write_maps() ? bytes_of_maps(simulation, maps->map_grid()) : 0.0;
   return need;
 }
 

@@ -9,19 +9,16 @@
 
 namespace thawslide::run {
 
-// Sizes in [bytes], without compression. Maps and basal columns in a checkpoint grow with the ground that the slide has
-// covered; the allowance for this is sim::usual_spread.
+// Sizes in [bytes], without compression.
 struct DiskNeed {
-  double snapshots = 0.0, snapshot = 0.0;      // number, and size of one
-  double checkpoints = 0.0, checkpoint = 0.0;  // with the one being written; after the slide has spread
-  double checkpoint_at_start = 0.0;            // before it has spread
-  double history_rows = 0.0, history = 0.0;    // number of rows, and size of all
-  double maps = 0.0, map = 0.0;                // at the end of the run
-  double ground_maps = 0.0, ground_map = 0.0;  // on the points of the DEM
-  double inputs = 0.0;                         // copies
+  double snapshots = 0.0, snapshot = 0.0;    // number, and size of one
+  double checkpoint = 0.0;                   // of one, after the slide has spread (sim::usual_spread)
+  double history_rows = 0.0, history = 0.0;  // number of rows, and size of all
+  double maps = 0.0, inputs = 0.0;
 
+  static constexpr double checkpoints = 3.0;  // two, and the one being written
   [[nodiscard]] double total() const {
-    return snapshots * snapshot + checkpoints * checkpoint + history + maps * map + ground_maps * ground_map + inputs;
+    return snapshots * snapshot + checkpoints * checkpoint + history + maps + inputs;
   }
 };
 

@@ -189,8 +189,7 @@ def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Pa
             facts["maps"],
         )
         assert reported and reported[3] != reported[4], facts["maps"]
-        one = int(reported[1]) * int(reported[2]) * 8
-        sizes = f"12 of {size_text(one)}, 2 of {size_text(of_ground)}"
-        assert f", 14 maps ({sizes}) before they are compressed; " in facts["disk"]
+        all_maps = 12 * int(reported[1]) * int(reported[2]) * 8 + 2 * of_ground
+        assert f", maps {size_text(all_maps)} before they are compressed; " in facts["disk"]
     refusal = thawslide.error("check", slope.case, "--set", "maps.cell=0.01")
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal
