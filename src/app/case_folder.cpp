@@ -9,7 +9,7 @@
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/read_case.hpp"
 #include "run/block_model.hpp"
 #include "run/setup.hpp"

@@ -13,7 +13,6 @@
 #include "app/commands.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "run/input_files.hpp"
 #include "run/run_cost.hpp"

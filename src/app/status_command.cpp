@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/read_case.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history_writer.hpp"

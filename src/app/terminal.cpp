@@ -22,10 +22,6 @@ constexpr double seconds_between_lines = 10.0;
 constexpr double fraction_between_lines = 0.1;
 constexpr int bar_width = 24;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 volatile std::sig_atomic_t signal_number = 0;
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -46,13 +42,13 @@ void remember(int number) {
 
 }  // namespace
 
-Terminal::Terminal() : is_terminal_(isatty(STDOUT_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+Terminal::Terminal() : is_terminal_(isatty(STDOUT_FILENO) != 0), start_(wall_clock()), last_(start_) {}
 
 void Terminal::start(double time) {
   catch_signals();
   begin_ = time;
   last_fraction_ = 0.0;
-  start_ = last_ = Clock::now();
+  start_ = last_ = wall_clock();
 }
 
 std::string Terminal::interruption() {
@@ -62,7 +58,7 @@ std::string Terminal::interruption() {
 
 bool Terminal::wants_progress(double time, double end) {
   constexpr double least_work_between = 20.0;  // in multiples of the cost of the last line
-  const double fraction = (time - begin_) / (end - begin_), passed = seconds_since(last_);
+  const double fraction = (time - begin_) / (end - begin_), passed = wall_clock() - last_;
   const bool is_due = is_terminal_
                           ? passed >= seconds_between_bars
                           : fraction - last_fraction_ >= fraction_between_lines || passed >= seconds_between_lines;
@@ -71,7 +67,7 @@ bool Terminal::wants_progress(double time, double end) {
 }
 
 void Terminal::progress(const run::ProgressState& state) {
-  const double elapsed = seconds_since(start_);
+  const double elapsed = wall_clock() - start_;
   const double fraction = (state.time - begin_) / (state.end - begin_);
   const double left = fraction > 0.0 ? elapsed * (1.0 - fraction) / fraction : 0.0;
   std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left", state.time, state.end,
@@ -89,7 +85,7 @@ void Terminal::progress(const run::ProgressState& state) {
   } else {
     print_text("{:3.0f} % | {}\n", 100.0 * fraction, text);
   }
-  last_ = Clock::now();
+  last_ = wall_clock();
   work_ = thread_clock() - begun_;
   last_fraction_ = fraction;
 }

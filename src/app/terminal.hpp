@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -28,14 +27,12 @@ class Terminal final : public run::Observer {
   [[nodiscard]] std::string interruption() override;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   bool is_terminal_;
   bool is_drawn_ = false;
   double begin_ = 0.0, last_fraction_ = 0.0;
-  double work_ = 0.0;   // time to show the last state, including the caller's part [s]
-  double begun_ = 0.0;  // start of that work, in CPU time [s]
-  Clock::time_point start_, last_;
+  double work_ = 0.0;    // time to show the last state, including the caller's part [s]
+  double begun_ = 0.0;   // start of that work, in CPU time [s]
+  double start_, last_;  // wall-clock time [s]
 };
 
 // SIGINT, SIGTERM and SIGHUP only set a flag from now on; a second one of any of them ends the program immediately.

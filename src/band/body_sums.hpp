@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "base/exact_sum.hpp"
 #include "base/linear.hpp"
+#include "base/sums.hpp"
 #include "mpm/front.hpp"
 #include "physics/mixture.hpp"
 #include "physics/pore_water.hpp"

@@ -1,8 +1,11 @@
-// Clocks [s], for differences only.
+// Clocks [s], for differences only, and wall-clock time per named stage.
 #pragma once
 
 #include <chrono>
 #include <ctime>
+#include <map>
+#include <string>
+#include <string_view>
 
 namespace thawslide {
 
@@ -16,5 +19,28 @@ inline double thread_clock() {
 inline double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+class Stopwatch {
+ public:
+  // by stage; transparent comparison avoids copies of the name
+  using Seconds = std::map<std::string, double, std::less<>>;
+
+  // Runs a stage and adds its wall-clock time [s] to the stage's total.
+  template <class Stage>
+  void time(std::string_view stage, const Stage& run) {
+    const double start = wall_clock();
+    run();
+    auto entry = seconds_.find(stage);
+    if (entry == seconds_.end()) {
+      entry = seconds_.emplace(stage, 0.0).first;
+    }
+    entry->second += wall_clock() - start;
+  }
+
+  [[nodiscard]] const Seconds& seconds() const { return seconds_; }
+
+ private:
+  Seconds seconds_;
+};
 
 }  // namespace thawslide

@@ -65,7 +65,12 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] void fail_assertion(const char* condition, const char* file, int line, const std::string& values);
+[[noreturn, gnu::noinline, gnu::cold]] inline void fail_assertion(const char* condition, const char* file, int line,
+                                                                  const std::string& values) {
+  using namespace std::string_literals;
+  throw InternalError(file + ":"s + std::to_string(line) + ": internal error: '" + condition +
+                      "' does not hold: " + values);
+}
 
 }  // namespace thawslide
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/sum_order.hpp"
+#include "base/sums.hpp"
 
 namespace thawslide {
 
@@ -80,7 +80,7 @@ template <class Body>
 }
 
 // Sum over body(k, sum) for k = 0 .. count-1, each starting from zero, on any thread. Results are added in the order of
-// calls, in runs (base/sum_order.hpp). The sum is bitwise independent of the number of threads.
+// calls, in runs (base/sums.hpp). The sum is bitwise independent of the number of threads.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
   thread_local std::vector<Sum> buffer;  // persistent, to avoid allocation in each step

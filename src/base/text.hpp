@@ -1,4 +1,4 @@
-// Small functions of text.
+// Small functions of text, and quoting of words in printed shell commands, because paths may contain any character.
 #pragma once
 
 #include <algorithm>
@@ -37,5 +37,9 @@ namespace thawslide {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;
 }
+
+// Text as one word of a POSIX shell, quoted if it contains special characters. A leading dash gets the prefix "./", so
+// that no program interprets the path as an option.
+[[nodiscard]] std::string shell_quote(const std::string& text);
 
 }  // namespace thawslide

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"

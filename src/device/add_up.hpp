@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "base/portability.hpp"
-#include "base/sum_order.hpp"
+#include "base/sums.hpp"
 
 namespace thawslide::device {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/portability.hpp"
-#include "base/sum_order.hpp"
+#include "base/sums.hpp"
 #include "exec/array.hpp"
 
 namespace thawslide::exec {

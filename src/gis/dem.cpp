@@ -6,7 +6,6 @@
 
 #include "base/raster_sampling.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/reference_system.hpp"

@@ -13,7 +13,6 @@
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"

@@ -9,7 +9,6 @@
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "gis/case_inputs.hpp"

@@ -5,8 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/nearest_known.hpp"
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "gis/point_window.hpp"

@@ -13,7 +13,7 @@
 // thicknesses).
 #pragma once
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/polygons.hpp"
 
 namespace thawslide::gis {

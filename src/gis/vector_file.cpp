@@ -10,7 +10,6 @@
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"

@@ -9,7 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "io/files.hpp"
 #include "version.hpp"
 

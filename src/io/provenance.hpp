@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/stopwatch.hpp"
+#include "base/clocks.hpp"
 
 namespace thawslide::io {
 

@@ -35,9 +35,7 @@ std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
 
 }  // namespace
 
-SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexed_() {
-  make_folder(folder / "snapshots");
-}
+SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder) { make_folder(folder / "snapshots"); }
 
 SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, const std::vector<double>& state,
                                               std::vector<SnapshotField> fields, std::vector<std::string>& warnings) {
@@ -96,8 +94,7 @@ void SnapshotSeries::finish_writing() {
 
 void SnapshotSeries::add(Snapshot snapshot) {
   finish_writing();
-  const auto now = std::chrono::steady_clock::now();
-  if (!entries_.empty() && std::chrono::duration<double>(now - indexed_).count() > seconds_between_indices) {
+  if (!entries_.empty() && wall_clock() - indexed_ > seconds_between_indices) {
     write_index();
   }
   const fs::path file = folder_ / file_name(next_);
@@ -213,7 +210,7 @@ void SnapshotSeries::write_index() {
   write_steps(root);
   const std::vector<std::byte> bytes = file.bytes();
   write_file_atomically(folder_ / "particles.vtkhdf", bytes.data(), bytes.size());
-  indexed_ = std::chrono::steady_clock::now();
+  indexed_ = wall_clock();
 }
 
 }  // namespace thawslide::io

@@ -1,7 +1,7 @@
 // Snapshots of a run: one file each, and an index with which readers open them as a series.
 #pragma once
 
-#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <future>
 #include <string>
@@ -55,8 +55,8 @@ class SnapshotSeries {
   std::vector<Entry> entries_;         // readable snapshots
   std::size_t next_ = 0;               // number of the next one
   std::vector<SnapshotField> fields_;  // of the last snapshot, without values
-  std::chrono::steady_clock::time_point indexed_;
-  std::future<Written> writing_;  // the last snapshot; HDF5 is used by one thread at a time
+  double indexed_ = -HUGE_VAL;         // wall-clock time of the last index
+  std::future<Written> writing_;       // the last snapshot; HDF5 is used by one thread at a time
   double writer_seconds_ = 0.0;
 };
 

@@ -10,11 +10,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/describe.hpp"
@@ -112,10 +112,10 @@ class Live {
     const terrain::StrengthLaw strength = [&law](terrain::LoadedNodes& nodes) { set_strengths(law, nodes); };
     const terrain::StrengthLaw* replacing = law.is_none() ? nullptr : &strength;
     use(threads, [&](run::LiveRun& live) {
-      const auto begin = std::chrono::steady_clock::now();
+      const double begin = wall_clock();
       for (std::int64_t k = 0; k < steps && live.time() < until && !live.is_done() && !observer_.has_exception(); ++k) {
         live.step(replacing);
-        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= seconds) {
+        if (wall_clock() - begin >= seconds) {
           return;
         }
       }

@@ -5,12 +5,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/trampoline.h>
 
-#include <chrono>
 #include <exception>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "base/clocks.hpp"
 #include "base/error.hpp"
 #include "run/observer.hpp"
 
@@ -76,7 +76,6 @@ class PythonObserver : public run::Observer {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   static constexpr double progress_interval = 0.2, check_interval = 0.05;  // wall-clock time [s]
 
   void rethrow_exception() {
@@ -106,16 +105,16 @@ class PythonObserver : public run::Observer {
       }
     }
   }
-  static bool is_due(Clock::time_point& last, double interval) {
-    const Clock::time_point now = Clock::now();
-    if (std::chrono::duration<double>(now - last).count() < interval) {
+  static bool is_due(double& last, double interval) {
+    const double now = wall_clock();
+    if (now - last < interval) {
       return false;
     }
     last = now;
     return true;
   }
 
-  Clock::time_point last_progress_ = Clock::now(), last_check_ = Clock::now();
+  double last_progress_ = wall_clock(), last_check_ = wall_clock();
   std::string interruption_;
   std::exception_ptr exception_;
 };

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/map_style.hpp"
 #include "gis/polygons.hpp"

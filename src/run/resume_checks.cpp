@@ -6,7 +6,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"

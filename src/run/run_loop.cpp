@@ -6,7 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
 #include "run/step_warnings.hpp"

@@ -1,15 +1,14 @@
 // Output files of a run, written during the run (docs/reference/outputs.md lists them).
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "band/base_sums.hpp"
+#include "base/clocks.hpp"
 #include "base/state_numbers.hpp"
-#include "base/stopwatch.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
 #include "io/run_lock.hpp"
@@ -43,10 +42,8 @@ class RunOutput {
                           io::Provenance earlier, std::string case_text);
 
   // Wall-clock time [s] since start_clock.
-  void start_clock() { clock_start_ = std::chrono::steady_clock::now(); }
-  [[nodiscard]] double wall_seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start_).count();
-  }
+  void start_clock() { clock_start_ = wall_clock(); }
+  [[nodiscard]] double wall_seconds() const { return wall_clock() - clock_start_; }
   // Counts the work; call before every step.
   void before_step(const Simulation& simulation);
   // Samples maps and probes; call after every step.
@@ -106,7 +103,7 @@ class RunOutput {
   bool slide_left_ = false;
   std::string case_text_;  // resolved, as in case.toml
   Stopwatch stopwatch_;
-  std::chrono::steady_clock::time_point clock_start_;
+  double clock_start_ = 0.0;
   std::int64_t history_step_ = -1, snapshot_step_ = -1, checkpoint_step_ = -1;
 };
 

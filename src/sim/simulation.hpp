@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/clocks.hpp"
 #include "base/error.hpp"
-#include "base/stopwatch.hpp"
 #include "sim/between_steps/monitor.hpp"
 #include "sim/between_steps/new_particles.hpp"
 #include "sim/between_steps/removed_particles.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/nearest_known.hpp"
+#include "base/raster.hpp"
 #include "terrain/convex_polygon.hpp"
 #include "terrain/triangle_rule.hpp"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "config/site.hpp"
 #include "sim/between_steps/new_particles.hpp"
 #include "sim/solver/budget.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 
 namespace thawslide::sim {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
 #include "sim/setup/model.hpp"

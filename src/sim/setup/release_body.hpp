@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "config/site.hpp"
 #include "sim/setup/seed.hpp"
 #include "terrain/surface.hpp"

@@ -8,7 +8,7 @@
 
 #include "band/flow_depth.hpp"
 #include "band/stages_on_cpu.hpp"
-#include "base/stopwatch.hpp"
+#include "base/clocks.hpp"
 #include "mpm/body_contact.hpp"
 #include "mpm/step_sequence.hpp"
 #include "sim/solver/base.hpp"

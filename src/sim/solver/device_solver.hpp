@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "base/stopwatch.hpp"
+#include "base/clocks.hpp"
 #include "device/solver_factory.hpp"
 #include "sim/solver/base.hpp"
 #include "sim/solver/clock.hpp"

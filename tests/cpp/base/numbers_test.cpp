@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/counter_random.hpp"
-#include "base/exact_sum.hpp"
 #include "base/ordered_bits.hpp"
 #include "base/rounding.hpp"
+#include "base/sums.hpp"
 
 namespace thawslide {
 namespace {

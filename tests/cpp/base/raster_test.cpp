@@ -1,12 +1,12 @@
 // Values between the points of a raster, at points without data, and the volume of a thickness.
+#include "base/raster.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "../support/small_terrain.hpp"
-#include "base/nearest_known.hpp"
-#include "base/raster_sampling.hpp"
 
 namespace thawslide {
 namespace {

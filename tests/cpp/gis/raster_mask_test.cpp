@@ -1,5 +1,5 @@
 // Masks of rasters count as no data, in every form in which files store them.
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/polygons.hpp"
 #include "site_case.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "../support/record.hpp"
 #include "base/error.hpp"
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"
 #include "sim/records/run_records.hpp"

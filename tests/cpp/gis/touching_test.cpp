@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "config/read_case.hpp"
 #include "sim/simulation.hpp"
 #include "site_case.hpp"

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <string>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 
 namespace thawslide::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
-// Sums independent of the order of additions. For host and device.
+// Sums independent of the order of additions, and the order of other sums on the CPU and on a device.
 #pragma once
+
+#include <cstddef>
 
 #include "base/portability.hpp"
 
@@ -26,5 +28,10 @@ class ExactSum {
  private:
   double sum_ = 0, rest_ = 0;
 };
+
+// Parts are added in runs of this size, each in order; then the sums of the runs are added in order. A device can add
+// all runs in parallel.
+inline constexpr std::size_t parts_of_a_run = 128;
+constexpr std::size_t runs_of(std::size_t parts) { return (parts + parts_of_a_run - 1) / parts_of_a_run; }
 
 }  // namespace thawslide

@@ -1,5 +1,5 @@
 // A shell reads each quoted text as a single word with the same characters.
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 
 #include <gtest/gtest.h>
 
