@@ -22,14 +22,14 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunStatus {
-  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without file locks
+  std::string state;  // running, killed, done, stopped, failed
   std::string message;
-  std::string process;        // of the run, or a possible one; empty: none
-  double time = 0.0;          // simulated [s]
-  std::optional<double> end;  // [s]; empty if the case cannot be read
-  std::string case_error;     // reason why the case cannot be read
-  std::string history_error;  // reason why the history cannot be read; empty if it can
-  std::optional<double> checkpoint_age, last_write_age, time_left;  // wall-clock [s]
+  std::string process;                              // of the run; empty: none
+  double time = 0.0;                                // simulated [s]
+  std::optional<double> end;                        // [s]; empty if the case cannot be read
+  std::string case_error;                           // reason why the case cannot be read
+  std::string history_error;                        // reason why the history cannot be read; empty if it can
+  std::optional<double> checkpoint_age, time_left;  // wall-clock [s]
 };
 
 // Converts a UTC time in run.json to its age [s].
@@ -78,51 +78,23 @@ std::optional<double> checkpoint_age(const fs::path& folder) {
   return std::nullopt;
 }
 
-// Age of the run's file that was written last.
-std::optional<double> last_write_age(const fs::path& folder) {
-  std::optional<double> least;
-  for (const fs::path& path : {folder, folder / "snapshots"}) {
-    std::error_code error;
-    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
-      std::error_code unknown;
-      const std::optional<double> age =
-          fs::is_regular_file(entry->path(), unknown) ? age_of(entry->path()) : std::nullopt;
-      least = age && least ? std::min(*age, *least) : age ? age : least;
-    }
-  }
-  return least;
-}
-
-// Status of a run that has a process, or may have one, and no run.json yet.
-RunStatus status_at_start(const fs::path& folder, const io::AtWork& at_work) {
-  RunStatus status;
-  status.state = at_work.is_known ? "running" : "unknown";
-  status.process = at_work.process;
-  status.last_write_age = last_write_age(folder);
-  status.case_error = "the run is setting up and has not written run.json yet";
-  return status;
-}
-
 RunStatus status_of(const fs::path& folder) {
-  const io::AtWork at_work = io::process_at_work(folder);
-  if (!fs::exists(folder / "run.json")) {
-    if (!at_work.process.empty()) {
-      return status_at_start(folder, at_work);
-    }
-    throw UserError("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed.",
-                    folder.string());
-  }
-  const bool is_at_work = at_work.is_known && !at_work.process.empty();
-  const io::Provenance facts = io::read_provenance(folder);
   RunStatus status;
-  status.process = at_work.process;
-  status.state = is_at_work                  ? "running"
-                 : facts.status != "running" ? facts.status
-                 : at_work.is_known          ? "killed"
-                                             : "unknown";
+  status.process = io::process_at_work(folder);
+  const bool is_at_work = !status.process.empty();
+  if (!fs::exists(folder / "run.json")) {
+    if (!is_at_work) {
+      throw UserError("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed.",
+                      folder.string());
+    }
+    status.state = "running";
+    status.case_error = "the run is setting up and has not written run.json yet";
+    return status;
+  }
+  const io::Provenance facts = io::read_provenance(folder);
+  status.state = is_at_work ? "running" : facts.status == "running" ? "killed" : facts.status;
   status.message = is_at_work ? "" : facts.message;
   add_time(folder, facts.simulated_time, status);
-  status.last_write_age = last_write_age(folder);
   add_end(folder, status);
   status.checkpoint_age = checkpoint_age(folder);
   const io::RunPart& part = facts.parts.back();
@@ -138,15 +110,13 @@ std::string json_text(const RunStatus& status) {
   const auto number = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   };
-  nlohmann::ordered_json json;
-  json["state"] = status.state;
-  json["message"] = status.message;
-  json["process"] = status.process;
-  json["simulated_time_s"] = status.time;
-  json["end_s"] = number(status.end);
-  json["last_write_age_s"] = number(status.last_write_age);
-  json["checkpoint_age_s"] = number(status.checkpoint_age);
-  json["time_left_s"] = number(status.time_left);
+  const nlohmann::ordered_json json{{"state", status.state},
+                                    {"message", status.message},
+                                    {"process", status.process},
+                                    {"simulated_time_s", status.time},
+                                    {"end_s", number(status.end)},
+                                    {"checkpoint_age_s", number(status.checkpoint_age)},
+                                    {"time_left_s", number(status.time_left)}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -162,12 +132,6 @@ std::string status_text(const RunStatus& status) {
   if (status.state == "killed") {
     return "terminated unexpectedly: the process was killed, the machine stopped, or the disk was full";
   }
-  if (status.state == "unknown") {
-    return fmt::format(
-        "it cannot be determined whether it runs, because its file system has no locks{}; its last file was written {}",
-        status.process.empty() ? "" : fmt::format(" and {} has begun to write it", status.process),
-        age_text(status.last_write_age.value_or(0.0)));
-  }
   if (status.state == "failed") {
     return status.message.empty() ? "the run failed" : status.message;  // the message begins with these words
   }
@@ -177,12 +141,6 @@ std::string status_text(const RunStatus& status) {
 std::string continue_text(const fs::path& folder, const RunStatus& status) {
   if (status.state == "killed" || status.state == "stopped") {
     return fmt::format("  to continue: thawslide resume {}\n", shell_quote(folder.string()));
-  }
-  if (status.state == "unknown") {
-    return status.process.empty()
-               ? fmt::format("  if nothing writes there any more: thawslide resume {}\n", shell_quote(folder.string()))
-               : fmt::format("  if that has surely ended: remove {}, then thawslide resume {}\n",
-                             (folder / io::lock_name).string(), shell_quote(folder.string()));
   }
   if (status.state == "failed") {
     return fmt::format(

@@ -185,10 +185,8 @@ void require_replaceable(const fs::path& folder, bool overwrite) {
   if (overwrite) {
     return;
   }
-  const AtWork at_work = process_at_work(folder);
-  if (!at_work.process.empty()) {
-    throw UserError("the output folder {} {} written by {}. Specify another --output.", folder.string(),
-                    at_work.is_known ? "is being" : "may be being", at_work.process);
+  if (const std::string process = process_at_work(folder); !process.empty()) {
+    throw UserError("the output folder {} is being written by {}. Specify another --output.", folder.string(), process);
   }
   throw UserError(
       "the output folder {} contains another run. Specify another --output, or replace that run with --overwrite.",

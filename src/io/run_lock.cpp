@@ -79,39 +79,20 @@ pid_t process_of_this_machine(const std::string& line) {
   return number > 0 && line == config::shown(format_process(number)) ? number : 0;
 }
 
-// Process at work according to the file, on file systems without locks. An entry with our own number was left by an
-// earlier process.
-AtWork at_work_by(const std::string& line) {
+// Process at work according to the file, on file systems without locks: one of another machine until its entry is
+// removed. An entry with our own number was left by an earlier process.
+std::string named_process(const std::string& line) {
   const pid_t number = process_of_this_machine(line);
-  if (number == 0) {
-    return {false, line};
-  }
-  const bool lives = number != getpid() && (kill(number, 0) == 0 || errno == EPERM);
-  return {true, lives ? line : ""};
+  const bool has_ended = number > 0 && (number == getpid() || (kill(number, 0) != 0 && errno != EPERM));
+  return has_ended ? "" : line;
 }
 
-AtWork at_work_by(int descriptor, Lock lock) {
+std::string process_of(int descriptor, Lock lock) {
   const std::string line = lock == Lock::acquired ? "" : line_in(descriptor);
   if (lock == Lock::unknown) {
-    return at_work_by(line);
+    return named_process(line);
   }
-  return {true, lock == Lock::of_another && line.empty() ? "another process" : line};
-}
-
-std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
-  const std::string folder = file.parent_path().string();
-  if (!at_work.is_known) {
-    return fmt::format(
-        "{} may be being written by {}: its file system has no locks, and this machine cannot determine whether that "
-        "process exists. If it has surely ended, remove {}.",
-        folder, at_work.process, file.string());
-  }
-  const std::string without_locks =
-      lock == Lock::unknown
-          ? fmt::format(" Its file system has no locks: if that process is no run any more, remove {}.", file.string())
-          : "";
-  return fmt::format("{} is being written by {}. Wait until that has ended, or stop it.{}", folder, at_work.process,
-                     without_locks);
+  return lock == Lock::of_another && line.empty() ? "another process" : line;
 }
 
 // Returns a descriptor that holds the lock, or -1 if the file was unlinked after opening.
@@ -121,14 +102,17 @@ int acquire_lock(const fs::path& file) {
     throw WriteError("cannot write {}: {}", file.string(), std::strerror(errno));
   }
   const Lock lock = acquire(descriptor);
-  const AtWork at_work = at_work_by(descriptor, lock);
-  const bool is_free = at_work.process.empty();
-  if (is_free && is_of_name(descriptor, file)) {
+  const std::string process = process_of(descriptor, lock);
+  if (process.empty() && is_of_name(descriptor, file)) {
     return descriptor;
   }
   close(descriptor);
-  if (!is_free) {
-    throw UserError(refusal(file, at_work, lock));
+  if (!process.empty()) {
+    throw UserError(
+        "{} is being written by {}. Wait until that has ended, or stop it.{}", file.parent_path().string(), process,
+        lock == Lock::unknown
+            ? " Its file system has no locks: if that process is no run any more, remove " + file.string() + "."
+            : "");
   }
   return -1;
 }
@@ -196,7 +180,7 @@ void OwnFolder::require() const {
   }
 }
 
-AtWork process_at_work(const fs::path& folder) {
+std::string process_at_work(const fs::path& folder) {
   const fs::path file = folder / lock_name;
   const int descriptor = open_lock(file, O_RDONLY);
   if (descriptor < 0) {
@@ -204,9 +188,9 @@ AtWork process_at_work(const fs::path& folder) {
       throw UserError("cannot read {}: {}. It shows whether a run is active there.", file.string(),
                       std::strerror(errno));
     }
-    return {};
+    return "";
   }
-  const AtWork found = at_work_by(descriptor, try_lock(descriptor, LOCK_SH));
+  const std::string found = process_of(descriptor, try_lock(descriptor, LOCK_SH));
   close(descriptor);
   return found;
 }

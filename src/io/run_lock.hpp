@@ -42,11 +42,7 @@ class OwnFolder {
   std::uint64_t device_ = 0, inode_ = 0;
 };
 
-struct AtWork {
-  bool is_known = true;  // false: there is a lock file without file-system locks, and its contents are inconclusive
-  std::string process;   // "process 123 on HOST" that works in the folder, or may; empty: no known process
-};
-// Throws UserError if the lock cannot be read.
-[[nodiscard]] AtWork process_at_work(const std::filesystem::path& folder);
+// "process 123 on HOST" that works in the folder; empty: none. Throws UserError if the lock cannot be read.
+[[nodiscard]] std::string process_at_work(const std::filesystem::path& folder);
 
 }  // namespace thawslide::io

@@ -260,9 +260,9 @@ void copy_run(const fs::path& folder, const fs::path& copy, const std::function<
 // Continues a copy of the run. The copy is removed again if it cannot be continued.
 ExitCode resume_copy(const ResumeOptions& options, Observer& observer) {
   config::require_changeable(options.sets);
-  if (const io::AtWork at_work = io::process_at_work(options.folder); !at_work.process.empty()) {
-    throw UserError("{} {} written by {}. Stop the run before a copy of it is continued.", options.folder.string(),
-                    at_work.is_known ? "is being" : "may be being", at_work.process);
+  if (const std::string process = io::process_at_work(options.folder); !process.empty()) {
+    throw UserError("{} is being written by {}. Stop the run before a copy of it is continued.",
+                    options.folder.string(), process);
   }
   io::require_usable(options.output, false);
   const bool is_new = !fs::exists(options.output);
@@ -318,7 +318,7 @@ ExitCode resume_run(const ResumeOptions& options, Observer& observer) {
   if (!options.output.empty()) {
     return resume_copy(options, observer);
   }
-  if (sets.empty() && io::process_at_work(folder).process.empty()) {
+  if (sets.empty() && io::process_at_work(folder).empty()) {
     const io::Provenance facts = io::read_provenance(folder);
     if (facts.status == "done") {
       return leave_finished(folder, facts, observer);
