@@ -8,20 +8,7 @@
 
 namespace thawslide::run {
 
-// Reports that water would boil but does not, that band columns are hot or have boiled dry, and each time that the base
-// passes a higher limit of temperature.
-class BoilingWatch {
- public:
-  // Returns a new warning; empty if there is none.
-  template <int Dim>
-  std::string warning(const sim::Simulation<Dim>& simulation);
-
- private:
-  bool is_dry_ = false;        // already reported
-  double passed_limit_ = 0.0;  // highest limit already reported [C]
-};
-
-// All warnings during a run, as lines.
+// All warnings during a run, as lines, each at its first occasion.
 class StepWarnings {
  public:
   // before: state before this part of the run.
@@ -34,29 +21,38 @@ class StepWarnings {
   template <int Dim>
   [[nodiscard]] std::vector<std::string> after_step(const sim::Simulation<Dim>& simulation) {
     std::vector<std::string> found;
-    const auto report_once = [&](bool& has_reported, const auto& warning) {
-      if (const std::string text = has_reported ? "" : warning(); !text.empty()) {
-        has_reported = true;
-        found.push_back(text);
-      }
-    };
-    report_once(has_reported_removal_, [&] { return warning_of_removal(simulation.time(), simulation.removed()); });
-    report_once(has_reported_splitting_, [&] { return simulation.split_warning(); });
-    report_once(has_reported_energy_, [&] { return simulation.energy_warning(); });
+    report_once(found, has_reported_removal_,
+                [&] { return warning_of_removal(simulation.time(), simulation.removed()); });
+    report_once(found, has_reported_splitting_, [&] { return simulation.split_warning(); });
+    report_once(found, has_reported_energy_, [&] { return simulation.energy_warning(); });
     return found;
   }
-  // New warnings at the time of a snapshot.
+  // New warnings at the time of a snapshot: water would boil but does not, or columns are hot or have boiled dry.
   template <int Dim>
   [[nodiscard]] std::vector<std::string> after_snapshot(const sim::Simulation<Dim>& simulation) {
-    const std::string warning = boiling_.warning<Dim>(simulation);
-    return warning.empty() ? std::vector<std::string>() : std::vector<std::string>{warning};
+    std::vector<std::string> found;
+    report_once(found, has_reported_dry_, [&] { return warning_of_dry(simulation); });
+    has_reported_heat_ = has_reported_heat_ || has_reported_dry_;
+    report_once(found, has_reported_heat_, [&] { return warning_of_heat(simulation); });
+    return found;
   }
 
  private:
+  template <class Warning>
+  static void report_once(std::vector<std::string>& found, bool& has_reported, const Warning& warning) {
+    if (const std::string text = has_reported ? "" : warning(); !text.empty()) {
+      has_reported = true;
+      found.push_back(text);
+    }
+  }
+  template <int Dim>
+  static std::string warning_of_dry(const sim::Simulation<Dim>& simulation);
+  template <int Dim>
+  static std::string warning_of_heat(const sim::Simulation<Dim>& simulation);
   static std::string warning_of_removal(double time, const sim::Removed& removed);
 
-  BoilingWatch boiling_;
-  bool has_reported_removal_, has_reported_splitting_, has_reported_energy_ = false;
+  bool has_reported_removal_, has_reported_splitting_;
+  bool has_reported_energy_ = false, has_reported_dry_ = false, has_reported_heat_ = false;
 };
 
 }  // namespace thawslide::run

@@ -93,33 +93,24 @@ def warnings_of_run(thawslide: Program, small_case: Path, tmp_path: Path) -> Run
     return run
 
 
-def limits(notes: list[str]) -> list[int]:
-    """Return the temperature limits in warnings, which must increase."""
-    found = [int(re.search(r"passes ([\d,]+) C", note)[1].replace(",", "")) for note in notes]  # type: ignore[index]
-    assert found == sorted(set(found))
-    return found
-
-
 def test_columns_that_boil_dry_are_reported_once(warnings_of_run: RunWarnings) -> None:
-    note, *later = warnings_of_run(*FAST)
+    (note,) = warnings_of_run(*FAST)
     found = re.match(r"warning: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
     assert found, note
     assert 100 < int(found[2]) < 5000
-    assert set(limits(later)) <= {500, 1000, 2000}
     assert "no longer limits temperature and friction" in note
 
 
 @pytest.mark.parametrize(
-    ("words", "highest", "text"),
+    ("words", "text"),
     [
-        (sets(heat__steam="false"), 1000, "Nothing boils, as heat.steam is false"),
-        (sets(band__model="scaled", band__thickness=0.01), 100, "Nothing in the model boils"),
+        (sets(heat__steam="false"), "Nothing boils, as heat.steam is false"),
+        (sets(band__model="scaled", band__thickness=0.01), "Nothing in the model boils"),
     ],
 )
-def test_without_steam_nothing_boils(warnings_of_run: RunWarnings, words: list[str], highest: int, text: str) -> None:
-    notes = warnings_of_run(*FAST, *words)
-    assert limits(notes)[-1] >= highest
-    assert all(f"{text}: temperatures above 100 C are not physical" in note for note in notes)
+def test_without_steam_nothing_boils(warnings_of_run: RunWarnings, words: list[str], text: str) -> None:
+    (note,) = warnings_of_run(*FAST, *words)
+    assert f"the base passes 100 C. {text}: temperatures above 100 C are not physical" in note
 
 
 def test_a_cold_base_has_no_warning(warnings_of_run: RunWarnings) -> None:
