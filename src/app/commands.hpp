@@ -33,7 +33,6 @@ struct ResumeOptions {
   std::string device = "cpu";
   std::vector<std::string> sets;  // changes to the case
   std::string end;                // new time.end [s]; empty: unchanged
-  std::string output;             // folder of a copy that continues; empty: none
 };
 int resume_run(const ResumeOptions& options);
 

@@ -160,10 +160,6 @@ int run_program(int count, char** arguments) {
                    "records the change")
       ->take_all()
       ->allow_extra_args(false);
-  resume
-      ->add_option("--output", resume_options.output,
-                   "Folder of a copy of the run, which continues while the run itself stays unchanged")
-      ->check(is_no_empty_name);
   resume->add_option("--end", resume_options.end, "New end of the run [s]; short for --set time.end=END")
       ->check(above_zero());
   resume->callback([&] { exit_code = resume_run(resume_options); });

@@ -109,7 +109,7 @@ int resume_run(const ResumeOptions& options) {
   run::use_threads(options.threads);
   Terminal terminal;
   return static_cast<int>(
-      run::resume_run({options.folder, with_end(options.sets, options.end), options.device, options.output}, terminal));
+      run::resume_run({options.folder, with_end(options.sets, options.end), options.device}, terminal));
 }
 
 }  // namespace thawslide::app

@@ -11,7 +11,6 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "io/checkpoint.hpp"
 #include "io/files.hpp"
 
 namespace thawslide::io {
@@ -133,21 +132,6 @@ void remove_own_of(const fs::path& folder, const IsOwn& is_own) {
   }
 }
 
-void copy_or_throw(const fs::path& from, const fs::path& to, bool as_link) {
-  std::error_code error;
-  if (as_link) {
-    fs::create_hard_link(from, to, error);
-  }
-  if (!as_link || error) {
-    error.clear();
-    fs::copy_file(from, to, error);
-  }
-  if (error) {
-    throw WriteError("{} cannot be copied to {}: {}. Check the permissions and the free space.", from.string(),
-                     to.string(), error.message());
-  }
-}
-
 // True if there is a run.json written by this program. Throws UserError if it cannot be read.
 bool is_run_folder(const fs::path& folder) {
   const Json facts = run_json(folder);
@@ -191,6 +175,23 @@ void require_replaceable(const fs::path& folder, bool overwrite) {
   throw UserError(
       "the output folder {} contains another run. Specify another --output, or replace that run with --overwrite.",
       folder.string());
+}
+
+// Removes the files of a run by their names: links instead of their targets, and folders if they are then empty. In
+// inputs/, these are the copies listed in run.json, which is removed last, because it identifies the folder as that of
+// a run. Throws WriteError.
+void remove_files_of_run(const fs::path& folder) {
+  for (const auto& [name, is_own] : folders_of(folder)) {
+    const fs::path path = folder / name;
+    if (is_real_folder(path)) {
+      remove_own_of(path, is_own);
+    }
+    if (fs::is_symlink(path) || (is_real_folder(path) && fs::is_empty(path))) {
+      remove_or_throw(path);
+    }
+  }
+  remove_own_of(folder, is_in_run);
+  remove_or_throw(folder / "run.json");
 }
 
 }  // namespace
@@ -243,42 +244,8 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   }
   RunLock lock(folder);
   require_usable(folder, overwrite);
-  remove_files_of_run(folder, folder);
+  remove_files_of_run(folder);
   return lock;
-}
-
-void copy_files_of_run(const fs::path& from, const fs::path& to) {
-  for (const auto& [name, is_own] : folders_of(from)) {
-    if (name == "figures" || !is_real_folder(from / name)) {
-      continue;
-    }
-    make_folder(to / name);
-    for (const fs::path& file : entries_of(from / name)) {
-      if (fs::is_regular_file(fs::symlink_status(file)) && is_own(file)) {
-        copy_or_throw(file, to / name / file.filename(), name == "snapshots");
-      }
-    }
-  }
-  for (const char* name : {"history.csv", "probes.csv", "case.toml", "terrain.csv", "particles.vtkhdf",
-                           previous_checkpoint_name, checkpoint_name, "run.json"}) {
-    if (fs::is_regular_file(fs::symlink_status(from / name))) {
-      copy_or_throw(from / name, to / name, false);
-    }
-  }
-}
-
-void remove_files_of_run(const fs::path& from, const fs::path& folder) {
-  for (const auto& [name, is_own] : folders_of(from)) {
-    const fs::path path = folder / name;
-    if (is_real_folder(path)) {
-      remove_own_of(path, is_own);
-    }
-    if (fs::is_symlink(path) || (is_real_folder(path) && fs::is_empty(path))) {
-      remove_or_throw(path);
-    }
-  }
-  remove_own_of(folder, is_in_run);
-  remove_or_throw(folder / "run.json");
 }
 
 }  // namespace thawslide::io

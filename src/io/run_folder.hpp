@@ -24,13 +24,4 @@ void require_own_folders(const std::filesystem::path& folder, const std::vector<
 // no files of others there or in snapshots/, inputs/, figures/ and maps/.
 RunLock make_run_folder(const std::filesystem::path& folder, bool overwrite);
 
-// Copies the files of a run that a resume reads or continues into an existing empty folder, run.json last. Snapshots
-// are hard links if the file system allows this, because no program changes them. Throws WriteError.
-void copy_files_of_run(const std::filesystem::path& from, const std::filesystem::path& to);
-
-// Removes the files of a run by their names from its folder, or from a copy (`folder`): links instead of their targets,
-// and folders if they are then empty. In inputs/, these are the copies listed in run.json of `from`. A copy may be
-// incomplete. run.json is removed last, because it identifies the folder as that of a run. Throws WriteError.
-void remove_files_of_run(const std::filesystem::path& from, const std::filesystem::path& folder);
-
 }  // namespace thawslide::io

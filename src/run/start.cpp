@@ -1,9 +1,6 @@
 #include "run/start.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -241,47 +238,6 @@ void require_run_folder(const fs::path& folder) {
   }
 }
 
-// Copies a run while it holds the run's lock, so that no process changes the files meanwhile. A folder that this user
-// cannot write needs no lock against their other processes, and cannot have one. A failed copy is removed.
-void copy_run(const fs::path& folder, const fs::path& copy, const std::function<void()>& remove_copy) {
-  std::optional<io::RunLock> lock;
-  if (access(folder.c_str(), W_OK) == 0) {
-    lock.emplace(folder);
-  }
-  io::make_folder(copy);
-  try {
-    io::copy_files_of_run(folder, copy);
-  } catch (...) {
-    remove_copy();
-    throw;
-  }
-}
-
-// Continues a copy of the run. The copy is removed again if it cannot be continued.
-ExitCode resume_copy(const ResumeOptions& options, Observer& observer) {
-  config::require_changeable(options.sets);
-  if (const std::string process = io::process_at_work(options.folder); !process.empty()) {
-    throw UserError("{} is being written by {}. Stop the run before a copy of it is continued.",
-                    options.folder.string(), process);
-  }
-  io::require_usable(options.output, false);
-  const bool is_new = !fs::exists(options.output);
-  const auto remove_copy = [&] {
-    io::remove_files_of_run(options.folder, options.output);
-    if (is_new && fs::is_empty(options.output)) {
-      io::remove_or_throw(options.output);
-    }
-  };
-  copy_run(options.folder, options.output, remove_copy);
-  observer.line("{} is copied to {}", options.folder.string(), options.output.string());
-  try {
-    return resume_run({options.output, options.sets, options.device}, observer);
-  } catch (const UserError&) {
-    remove_copy();
-    throw;
-  }
-}
-
 }  // namespace
 
 ExitCode start_run(const config::Case& parameters, const StartOptions& options, Observer& observer) {
@@ -315,9 +271,6 @@ ExitCode resume_run(const ResumeOptions& options, Observer& observer) {
   const fs::path& folder = options.folder;
   const std::vector<std::string>& sets = options.sets;
   require_run_folder(folder);
-  if (!options.output.empty()) {
-    return resume_copy(options, observer);
-  }
   if (sets.empty() && io::process_at_work(folder).empty()) {
     const io::Provenance facts = io::read_provenance(folder);
     if (facts.status == "done") {

@@ -25,11 +25,9 @@ struct ResumeOptions {
   std::filesystem::path folder;
   std::vector<std::string> sets;  // changes to the case, KEY=VALUE
   std::string device = "cpu";
-  std::filesystem::path output = {};  // copy of the run in which it continues; empty: the folder itself
 };
 
-// Continues a run from its checkpoint to its end. With an output folder, the run's own folder is unchanged. Throws as
-// start_run.
+// Continues a run from its checkpoint to its end. Throws as start_run.
 ExitCode resume_run(const ResumeOptions& options, Observer& observer);
 
 }  // namespace thawslide::run

@@ -92,7 +92,6 @@ LOST = (
          "{run} has reached its end at 0.2 s: no step is left that could take basal.friction_angle=5. Give a later "
          "end too: --end T.\n"),
         (unchanged, "--end 0.3 --set guards.volume=remove", "a continued run cannot change this. Run the case again."),
-        (unchanged, "--output {run} --end 0.3", "contains another run. Specify another --output"),
         # Results after the older checkpoint would be removed.
         (without_last_checkpoint, "--end 0.1",
          "the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one."),

@@ -1,21 +1,19 @@
 """Interrupted and resumed runs: results are bitwise identical to those of uninterrupted runs.
 
-Also with other steps and adaptive steps, and for a copy of a run (`resume --output`), which leaves the run itself as
-it is.
+Also with other steps and adaptive steps.
 """
 
 import re
 import shutil
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import conftest
 import numpy as np
 import pytest
 from conftest import LAMPLUGH, Interrupted, Program, Ran, assert_identical, history, mark_killed, run_facts, sets
-from faults import before_its_first_checkpoint, digest, environment_of_fault, needs_failing_writes
+from faults import before_its_first_checkpoint, digest
 
 # Rows, snapshots and checkpoints have different times.
 WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
@@ -268,67 +266,3 @@ def test_last_row_and_snapshot_precede_the_checkpoint(ran: Ran, thawslide: Progr
     assert (run / "history.csv").read_bytes() == rows
     assert [file.name for file in conftest.snapshot_files(run)] == names
     assert run_facts(run)["message"].startswith("the slide is at rest")
-
-
-MEGABYTE = 2**20
-
-
-def test_a_copy_continues_as_the_run_itself_would(thawslide: Program, done: Path, tmp_path: Path) -> None:
-    before, branch = conftest.content_of(done), tmp_path / "new" / "branch"
-    printed = thawslide.ok("resume", done, "--output", branch, "--end", 0.3, *sets(basal__friction_angle=5))
-    assert f"{done} is copied to {branch}\n" in printed
-    assert conftest.content_of(done) == before
-    assert history(branch)["time_s"][-1] == 0.3
-    assert [part["changes"] for part in run_facts(branch)["parts"]] == [[], ["basal.friction_angle=5", "time.end=0.3"]]
-    thawslide.ok("resume", done, "--end", 0.3, *sets(basal__friction_angle=5))
-    assert (branch / "history.csv").read_bytes() == (done / "history.csv").read_bytes()
-    names = [{path.name for path in (run / "snapshots").iterdir()} for run in (done, branch)]
-    assert names[0] == names[1]
-
-
-def test_a_change_that_is_refused_leaves_no_copy(thawslide: Program, done: Path, tmp_path: Path) -> None:
-    before, branch = conftest.content_of(done), tmp_path / "branch"
-    for words, message in (
-        (sets(grid__cell=2), "grid.cell cannot be changed on resume"),
-        (sets(time__ende=2), "key 'time.ende' is not known in [time]"),
-        (sets(basal__friction_angle=5), "has reached its end at 0.2 s: no step is left"),
-    ):
-        assert message in thawslide.error("resume", done, "--output", branch, *words)
-        assert not branch.exists()
-    assert conftest.content_of(done) == before
-
-
-@needs_failing_writes
-@pytest.mark.parametrize("exists", [False, True])
-def test_a_copy_that_fails_is_removed(thawslide: Program, done: Path, tmp_path: Path, exists: bool) -> None:
-    """The run is unchanged; an empty folder for the copy is empty again."""
-    before, branch = conftest.content_of(done), tmp_path / "branch"
-    if exists:
-        branch.mkdir()
-    words = ("resume", done, "--output", branch, "--end", 0.3)
-    for at in range(4 if exists else 1, 100):
-        outcome = thawslide(*words, environment=environment_of_fault(branch, at, "once", "full"))
-        if "is copied to" in outcome.stdout:
-            break
-        assert outcome.returncode == 5, outcome.stderr
-        assert "No space left on device" in outcome.stderr
-        assert branch.exists() == exists and not list(tmp_path.glob("branch/*"))
-        assert conftest.content_of(done) == before
-    assert at > 6  # folders and files of the copy
-
-
-def test_a_run_is_locked_while_it_is_copied(thawslide: Program, done: Path, tmp_path: Path) -> None:
-    with (done / "terrain.csv").open("ab") as file:
-        file.truncate(200 * MEGABYTE)
-    before, branch = {path: path.stat().st_size for path in done.rglob("*")}, tmp_path / "branch"
-    with thawslide.start("resume", done, "--output", branch, "--end", 0.3) as process:
-        while process.poll() is None and not (branch / "terrain.csv").exists():
-            time.sleep(0.001)
-        process.send_signal(signal.SIGSTOP)
-        assert not (branch / "run.json").exists(), "the copy was complete before the test could stop it"
-        message = thawslide.error("resume", done, "--end", 0.3)
-        process.send_signal(signal.SIGCONT)
-        process.communicate(timeout=conftest.HANG)
-        assert process.returncode == 0
-    assert f"{done} is being written by process {process.pid} on " in message
-    assert {path: path.stat().st_size for path in done.rglob("*")} == before
