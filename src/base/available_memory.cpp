@@ -44,31 +44,13 @@ double number_after(const std::string& text, const std::string& word) {
   return std::nan("");
 }
 
-// Files in which a version of control groups states its memory limit.
-struct BoundFiles {
-  const char *limit, *used, *droppable;  // droppable: a key of memory.stat
-};
-constexpr BoundFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
-constexpr BoundFiles version_2{"memory.max", "memory.current", "inactive_file"};
-
-double left_in_group(const fs::path& folder, const BoundFiles& files) {
-  const double limit = number_in(folder / files.limit), used = number_in(folder / files.used);
+double left_in_group(const fs::path& folder) {
+  const double limit = number_in(folder / "memory.max"), used = number_in(folder / "memory.current");
   if (std::isnan(limit) || std::isnan(used)) {
     return infinity;
   }
-  const double droppable = number_after(text_of(folder / "memory.stat"), files.droppable);
+  const double droppable = number_after(text_of(folder / "memory.stat"), "inactive_file");
   return std::max(0.0, limit - used + (std::isnan(droppable) ? 0.0 : droppable));
-}
-
-// The limits of the parent groups apply too.
-double left_up_to(const fs::path& mount, const std::string& group, const BoundFiles& files) {
-  double left = left_in_group(mount, files);
-  fs::path folder = mount;
-  for (const fs::path& part : fs::path(group).relative_path()) {
-    folder /= part;
-    left = std::min(left, left_in_group(folder, files));
-  }
-  return left;
 }
 
 double left_of_address_space() {
@@ -89,20 +71,16 @@ double available_in(const std::string& meminfo) {
 }
 
 double left_by_control_groups(const std::string& membership, const fs::path& mount) {
-  double left = infinity;
-  std::istringstream lines(membership);
-  for (std::string line; std::getline(lines, line);) {  // NUMBER:CONTROLLERS:GROUP
-    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
-    if (first == std::string::npos || second == std::string::npos) {
-      continue;
-    }
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
-    const std::string group = line.substr(second + 1);
-    if (controllers == ",,") {
-      left = std::min(left, left_up_to(mount, group, version_2));
-    } else if (controllers.find(",memory,") != std::string::npos) {
-      left = std::min(left, left_up_to(mount / "memory", group, version_1));
-    }
+  const std::size_t begin = membership.find("0::");
+  if (begin == std::string::npos) {
+    return infinity;
+  }
+  const std::string group = membership.substr(begin + 3, membership.find('\n', begin) - begin - 3);
+  double left = left_in_group(mount);
+  fs::path folder = mount;
+  for (const fs::path& part : fs::path(group).relative_path()) {  // the limits of the parent groups apply too
+    folder /= part;
+    left = std::min(left, left_in_group(folder));
   }
   return left;
 }

@@ -19,7 +19,7 @@ struct AvailableMemory {
 [[nodiscard]] double available_in(const std::string& meminfo);
 
 // Memory left by control groups [bytes], from the text of /proc/self/cgroup and the mount folder; infinite without a
-// limit. File pages that the system may drop count as free.
+// limit, and for control groups of the first version. File pages that the system may drop count as free.
 [[nodiscard]] double left_by_control_groups(const std::string& membership, const std::filesystem::path& mount);
 
 }  // namespace thawslide

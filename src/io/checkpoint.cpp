@@ -1,7 +1,6 @@
 #include "io/checkpoint.hpp"
 
 #include <cstring>
-#include <numeric>
 
 #include "base/atomic_file.hpp"
 #include "config/input_limits.hpp"
@@ -72,20 +71,6 @@ class Reader {
   std::filesystem::path file_;
 };
 
-// Bytes per particle of each field in a checkpoint.
-template <int Dim>
-std::vector<std::size_t> row_sizes() {
-  mpm::Particles<Dim> one;
-  one.resize(1);
-  std::vector<std::size_t> sizes;
-  for (const mpm::FieldBase* field : one.fields.all()) {
-    if (field->info().in_checkpoint) {
-      sizes.push_back(field->bytes().size());
-    }
-  }
-  return sizes;
-}
-
 // Description of the damage in a checkpoint's bytes; empty if they are as written.
 std::string damage_of(const std::filesystem::path& file, const std::string& bytes) {
   Digest stored{};
@@ -127,8 +112,7 @@ Reader reader_of(const WholeCheckpoint& checkpoint) {
   return reader;
 }
 
-void read_field(Reader& reader, const std::filesystem::path& file, std::size_t particles, std::size_t row_bytes,
-                mpm::FieldBase& field) {
+void read_field(Reader& reader, const std::filesystem::path& file, std::size_t particles, mpm::FieldBase& field) {
   const std::string name = reader.text();
   if (name != field.info().name) {
     throw UserError(
@@ -136,6 +120,7 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
         "names it).",
         file.string(), config::shown(name), field.info().name);
   }
+  const std::size_t row_bytes = field.components() * field.number_bytes();
   reader.expect(row_bytes, fmt::format("bytes a particle of the field '{}':", name).c_str());
   std::vector<std::byte> rows(row_bytes * particles);
   reader.get_raw(rows.data(), rows.size());
@@ -195,7 +180,7 @@ std::string checkpoint_bytes(const mpm::Particles<Dim>& particles, std::size_t a
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_checkpoint) {
       const std::vector<std::byte> rows = field->bytes();
-      const std::size_t row = rows.size() / std::max<std::size_t>(1, particles.size());
+      const std::size_t row = field->components() * field->number_bytes();
       writer.put(field->info().name);
       writer.put(row);
       for (const std::size_t p : order) {
@@ -230,14 +215,12 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(double), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
-  const std::vector<std::size_t> record_bytes = row_sizes<Dim>();
   // The number of particles may have changed, by removal, entrainment or splitting.
   particles.resize(reader.number());
   scalars = reader.numbers();
-  auto row_bytes = record_bytes.begin();
   for (mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_checkpoint) {
-      read_field(reader, file, particles.size(), *row_bytes++, *field);
+      read_field(reader, file, particles.size(), *field);
     }
   }
   NamedNumbers blocks;
@@ -250,14 +233,16 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
 
 template <int Dim>
 std::size_t checkpoint_bytes_of_particle() {
-  const std::vector<std::size_t> sizes = row_sizes<Dim>();
-  return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+  const mpm::Particles<Dim> any;
+  std::size_t bytes = 0;
+  for (const mpm::FieldBase* field : any.fields.all()) {
+    bytes += field->info().in_checkpoint ? field->components() * field->number_bytes() : 0;
+  }
+  return bytes;
 }
 
-template std::size_t checkpoint_bytes_of_particle<2>();
-template std::size_t checkpoint_bytes_of_particle<3>();
-
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                                \
+  template std::size_t checkpoint_bytes_of_particle<Dim>();                                                       \
   template std::string checkpoint_bytes<Dim>(const mpm::Particles<Dim>&, std::size_t, const std::vector<double>&, \
                                              const NamedNumbers&, const std::string&);                            \
   template void write_checkpoint<Dim>(const std::filesystem::path&, const mpm::Particles<Dim>&, std::size_t,      \

@@ -46,21 +46,6 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim>& simulatio
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
 }
 
-// Rewrites initial output files that are missing.
-template <int Dim>
-void write_missing_files(const fs::path& folder, const sim::Simulation<Dim>& simulation) {
-  if (!fs::exists(folder / "terrain.csv")) {
-    write_terrain(folder, simulation);
-  }
-  const auto is_present = [&](const char* name) { return fs::exists(folder / "maps" / name); };
-  if constexpr (Dim == 3) {
-    if (!is_present("terrain.tif") || !is_present("release.tif") || !is_present("release.qml") ||
-        (simulation.model().ground && !is_present("ground.tif"))) {
-      write_ground_maps(folder, simulation);
-    }
-  }
-}
-
 // Fills in the data of this process; `provenance` contains that of earlier ones, and the part that begins.
 template <int Dim>
 void complete(io::Provenance& provenance, const sim::Simulation<Dim>& simulation) {
@@ -199,7 +184,6 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
   if (output.records_.has_probes()) {
     output.probes_.emplace(continued("probes.csv", output.records_.probe_row(simulation), probes_then));
   }
-  write_missing_files(folder, simulation);
   output.provenance_ = std::move(earlier);
   output.case_text_ = std::move(case_text);
   complete(output.provenance_, simulation);

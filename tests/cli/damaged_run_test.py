@@ -145,26 +145,6 @@ def test_a_damaged_run_json_is_reported_with_a_remedy(thawslide: Program, killed
         )
 
 
-def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path) -> None:
-    mark_killed(done)
-    ground = (done / "terrain.csv").read_bytes()
-    (done / "terrain.csv").unlink()
-    thawslide.ok("resume", done)
-    assert (done / "terrain.csv").read_bytes() == ground
-
-
-def test_missing_maps_of_the_terrain_are_written_again(ran: Ran, thawslide: Program) -> None:
-    words = sets(grid__cell=60, time__stepping='"adaptive"', time__end=0.1, time__output_interval=0.1)
-    run = ran(*words, case=conftest.LAMPLUGH.parent / "valley3d")
-    names = ("terrain.tif", "release.tif", "release.qml", "ground.tif")
-    maps = {name: (run / "maps" / name).read_bytes() for name in names}
-    for name in names:
-        mark_killed(run)
-        (run / "maps" / name).unlink()
-        thawslide.ok("resume", run)
-        assert {each: (run / "maps" / each).read_bytes() for each in names} == maps
-
-
 @pytest.mark.parametrize(("name", "content"), [("case.toml", "other"), ("profile.csv", "no profile")])
 def test_a_changed_input_is_refused_and_a_changed_original_reported(
     thawslide: Program, small_case: Path, tmp_path: Path, name: str, content: str

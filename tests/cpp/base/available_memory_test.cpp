@@ -54,13 +54,6 @@ TEST(AvailableMemory, OfAControlGroupCountsAtTheMountToo) {
   EXPECT_EQ(left_by_control_groups("0::/not/to/be/seen\n", mount), 0.0) << "never negative";
 }
 
-TEST(AvailableMemory, OfControlGroupsOfTheFirstVersion) {
-  const fs::path mount = folder_of_this_test();
-  write(mount / "memory/job/memory.limit_in_bytes", "9000\n");
-  write(mount / "memory/job/memory.usage_in_bytes", "4000\n");
-  EXPECT_EQ(left_by_control_groups("7:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", mount), 5000.0);
-}
-
 TEST(AvailableMemory, IsKnownOnThisMachine) {
   const AvailableMemory available = available_memory();
   EXPECT_GT(available.bytes, 1e6);
