@@ -4,39 +4,19 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <memory>
+#include <cstdlib>
+#include <fstream>
 
 #include "app/terminal.hpp"
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "sim/setup/release_body.hpp"
 
 namespace thawslide::app {
 
 namespace {
-
-// Unnamed temporary file, which no other process can open and which is deleted with its last reader.
-class NamelessFile {
- public:
-  explicit NamelessFile(const std::string& text) : file_(std::tmpfile(), &std::fclose) {
-    const bool is_written = file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
-                            std::fflush(file_.get()) == 0;
-    if (!is_written) {
-      throw UserError("the picture was not drawn: a temporary file cannot be written: {}.", std::strerror(errno));
-    }
-  }
-  // Makes the file this process's standard input, read from its beginning.
-  [[nodiscard]] bool becomes_input() const {
-    const int descriptor = fileno(file_.get());
-    return lseek(descriptor, 0, SEEK_SET) == 0 && dup2(descriptor, STDIN_FILENO) == STDIN_FILENO;
-  }
-
- private:
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-};
 
 using Json = nlohmann::ordered_json;
 
@@ -188,20 +168,21 @@ std::string picture_path(const std::filesystem::path& case_file) {
 }
 
 void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture) {
-  const NamelessFile file(setup.dump());
-  const std::string program = python_program("thawslide-report");
-  std::fflush(stdout);  // so that earlier output precedes the child's
-  const pid_t child = fork();
-  if (child == 0) {
-    // Output of the child goes to stderr, because a program may read our stdout.
-    if (file.becomes_input() && dup2(STDERR_FILENO, STDOUT_FILENO) == STDOUT_FILENO) {
-      execlp(program.c_str(), program.c_str(), "--setup", "/dev/stdin", "--picture", picture.c_str(), nullptr);
-    }
-    _exit(127);
+  std::string file = std::filesystem::temp_directory_path() / "thawslide-setup-XXXXXX";
+  const int descriptor = mkstemp(file.data());
+  const bool is_written = descriptor >= 0 && (std::ofstream(file) << setup.dump() << std::flush).good();
+  close(descriptor);
+  if (!is_written) {
+    unlink(file.c_str());
+    throw UserError("the picture was not drawn: the temporary file {} cannot be written.", file);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  std::fflush(stdout);  // so that earlier output precedes that of the program, which goes to stderr
+  const std::string command =
+      fmt::format("{} --setup {} --picture {} >&2", shell_quote(python_program("thawslide-report")), shell_quote(file),
+                  shell_quote(picture));
+  const int status = std::system(command.c_str());
+  unlink(file.c_str());
+  if (status != 0) {
     const bool is_found = !WIFEXITED(status) || WEXITSTATUS(status) != 127;
     throw UserError("the picture was not drawn: thawslide-report {}. {}", is_found ? "failed" : "is not on PATH",
                     python_program_remedy);
