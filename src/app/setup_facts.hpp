@@ -9,7 +9,6 @@
 #include "config/case.hpp"
 #include "config/resolution.hpp"
 #include "config/site.hpp"
-#include "run/disk_need.hpp"
 #include "run/run_cost.hpp"
 #include "sim/checks/body_figures.hpp"
 #include "sim/memory_need.hpp"

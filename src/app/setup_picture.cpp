@@ -12,6 +12,7 @@
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "config/keywords.hpp"
 #include "sim/setup/release_body.hpp"
 
 namespace thawslide::app {
@@ -108,7 +109,7 @@ template <int Dim>
 Json section_json(const sim::Simulation<Dim>& simulation) {
   const config::Case& parameters = simulation.parameters();
   const auto& model = simulation.model();
-  constexpr const char* kinds[] = {"open", "roller", "fixed"};
+  const auto kinds = config::choices(config::BoundaryKind{});
   Json json;
   json["title"] = parameters.general.title.empty() ? parameters.name : parameters.general.title;
   json["cell"] = parameters.grid.cell;
@@ -117,7 +118,8 @@ Json section_json(const sim::Simulation<Dim>& simulation) {
   const char* faces[] = {"x_min", "x_max", "y_min", "y_max"};
   for (std::size_t f = 0; f < 4; ++f) {
     const std::size_t face = f < 2 ? f : 2 * (Dim - 1) + f - 2;
-    json["boundary"][faces[f]] = kinds[static_cast<std::size_t>(parameters.grid.boundary[face])];
+    json["boundary"][faces[f]] =
+        std::ranges::find(kinds, parameters.grid.boundary[face], &config::Choice<config::BoundaryKind>::value)->keyword;
   }
   json["terrain"] = nullptr;
   Json numbers;

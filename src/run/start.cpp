@@ -21,7 +21,6 @@
 #include "io/history_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_lock.hpp"
-#include "run/disk_need.hpp"
 #include "run/input_files.hpp"
 #include "run/resume_checks.hpp"
 #include "run/run_cost.hpp"
