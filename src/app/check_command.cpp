@@ -5,7 +5,6 @@
 
 #include "app/commands.hpp"
 #include "app/setup_facts.hpp"
-#include "app/setup_picture.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"

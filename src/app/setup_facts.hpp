@@ -1,6 +1,9 @@
-// Findings of `thawslide check`, reported with the same content as text and as JSON.
+// Findings of `thawslide check`, reported with the same content as text and as JSON, and the figure of a case, plotted
+// by thawslide-report --setup from JSON: terrain, grid, bodies, boundaries and frames.
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +15,7 @@
 #include "run/run_cost.hpp"
 #include "sim/checks/body_figures.hpp"
 #include "sim/memory_need.hpp"
+#include "sim/simulation.hpp"
 #include "sim/solver/time_step.hpp"
 
 namespace thawslide::app {
@@ -69,5 +73,16 @@ struct SetupFacts {
 
 // Each substrate, and last the remaining ground with [basal]; empty if the case has no substrates.
 [[nodiscard]] std::vector<SubstrateFacts> substrate_facts(const config::Case& parameters, const config::Site& site);
+
+// setup.png, prefixed by the name of a variant, because several case files may share a folder.
+[[nodiscard]] std::string picture_path(const std::filesystem::path& case_file);
+
+// setup: from setup_json. Throws UserError if thawslide-report is not found, or fails.
+void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture);
+
+// A map if the terrain is a DEM, otherwise a section along x. Heights of a DEM are thinned to the resolution of a
+// figure.
+template <int Dim>
+nlohmann::ordered_json setup_json(const sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::app

@@ -1,5 +1,3 @@
-#include "app/setup_picture.hpp"
-
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "app/setup_facts.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"

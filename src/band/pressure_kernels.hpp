@@ -7,7 +7,6 @@
 #include "mpm/mapping.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
-#include "physics/clapeyron.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::band {

@@ -14,8 +14,8 @@
 #include "base/aligned.hpp"
 #include "base/error.hpp"
 #include "base/linear.hpp"
+#include "base/parallel.hpp"
 #include "base/portability.hpp"
-#include "base/reorder.hpp"
 #include "mpm/field_view.hpp"
 #include "mpm/simd_batch.hpp"
 

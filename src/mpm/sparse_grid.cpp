@@ -7,7 +7,6 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
-#include "base/reorder.hpp"
 
 namespace thawslide::mpm {
 

@@ -18,7 +18,7 @@
 #pragma once
 
 #include "physics/boiling.hpp"
-#include "physics/enthalpy.hpp"
+#include "physics/heat_content.hpp"
 #include "physics/mixture.hpp"
 #include "physics/options.hpp"
 #include "physics/pore_water.hpp"

@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-#include "base/reorder.hpp"
 #include "base/thread_choice.hpp"
 
 namespace thawslide {

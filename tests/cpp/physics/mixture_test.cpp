@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "physics/clapeyron.hpp"
 #include "physics/freezing.hpp"
 #include "physics/pressurization.hpp"
 #include "table1.hpp"
