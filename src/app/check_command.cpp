@@ -109,7 +109,7 @@ SetupFacts facts_of(sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>
 }  // namespace
 
 int check_case(const CheckOptions& options) {
-  run::use_threads(options.threads);
+  use_threads(options.threads);
   const config::Case parameters = case_of(options.of_case);
   return run::with_dimension(parameters.general.dimension, [&]<int Dim>(
                                                                std::integral_constant<int, Dim> /*dimension*/) {

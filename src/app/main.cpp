@@ -1,7 +1,4 @@
 // Command line: options, commands and exit codes (listed in scripts/command_line_page.md).
-#include <fmt/ranges.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
@@ -9,7 +6,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -289,14 +285,10 @@ int run_program(int count, char** arguments) {
 // Escapes control characters, because names of files, attributes and others come from external sources.
 std::string printable(std::string text) { return thawslide::config::printable(std::move(text), "\n\t"); }
 
-// Last resort: prints the error, and writes it with command line and version to a log file.
-int end_with_internal_error(const std::string& error, int count, char** arguments) {
-  std::error_code none;  // the file is then written to the working directory
-  const std::filesystem::path log =
-      std::filesystem::temp_directory_path(none) / fmt::format("thawslide-error-{}.log", getpid());
-  std::ofstream(log) << fmt::format("thawslide {} {}\n{}\n{}\n", thawslide::version, thawslide::commit,
-                                    fmt::join(arguments, arguments + count, " "), error);
-  print_error("error: internal error, please report it with {}: {}\n", log.string(), error);
+// Last resort.
+int end_with_internal_error(const std::string& error) {
+  print_error("error: internal error of thawslide {} {}, please report it with the command line: {}\n",
+              thawslide::version, thawslide::commit, error);
   return 1;
 }
 
@@ -330,8 +322,8 @@ int main(int count, char** arguments) {
     if (of_system != nullptr && std::ferror(stdout) != 0) {
       return end_without_output(of_system->code(), static_cast<int>(ExitCode::done));
     }
-    return end_with_internal_error(printable(error.what()), count, arguments);
+    return end_with_internal_error(printable(error.what()));
   } catch (...) {
-    return end_with_internal_error("an exception of unknown type", count, arguments);
+    return end_with_internal_error("an exception of unknown type");
   }
 }

@@ -12,6 +12,7 @@
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
 #include "run/input_files.hpp"
@@ -235,7 +236,7 @@ std::optional<run::RunCost> cost_of_run(const fs::path& folder) {
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
-  run::use_threads(0);
+  use_threads(0);
   const std::string release_name = name_of_file(options.maps.release);
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "config/case_changes.hpp"
 #include "config/coarse_case.hpp"
 #include "config/read_case.hpp"
@@ -95,7 +96,7 @@ int run_case(const RunOptions& options) {
     return run_python_command("pair", arguments_of_pair(options));
   }
   survive_closed_pipes();
-  run::use_threads(options.threads);
+  use_threads(options.threads);
   Terminal terminal;
   CaseOptions of_case = options.of_case;
   of_case.sets = with_end(of_case.sets, options.end);
@@ -106,7 +107,7 @@ int run_case(const RunOptions& options) {
 
 int resume_run(const ResumeOptions& options) {
   survive_closed_pipes();
-  run::use_threads(options.threads);
+  use_threads(options.threads);
   Terminal terminal;
   return static_cast<int>(
       run::resume_run({options.folder, with_end(options.sets, options.end), options.device}, terminal));

@@ -22,20 +22,23 @@ void set_thread_count(int threads);
 // them, and its first loop would wait for them for ever.
 void end_waiting_threads();
 
-// Restricts the loops below to the calling thread during its lifetime: for many loops too short to run in parallel.
-class SingleThreadScope {
- public:
-  SingleThreadScope() : threads_(thread_count()) { set_thread_count(1); }
-  ~SingleThreadScope() { set_thread_count(threads_); }
-  SingleThreadScope(const SingleThreadScope&) = delete;
-  SingleThreadScope& operator=(const SingleThreadScope&) = delete;
-
- private:
-  int threads_;
-};
-
 // Number of cores available to this process.
 [[nodiscard]] int available_cores();
+
+// Sets the number of threads; 0: all available cores.
+inline void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
+
+// The same during its lifetime. One thread: for many loops too short to run in parallel.
+class ThreadScope {
+ public:
+  explicit ThreadScope(int threads) : before_(thread_count()) { use_threads(threads); }
+  ~ThreadScope() { set_thread_count(before_); }
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  int before_;
+};
 
 // Loops with fewer calls than this run on the calling thread, because waking others would cost more.
 inline constexpr std::size_t fewest_shared_calls = 9;

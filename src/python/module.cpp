@@ -66,18 +66,6 @@ void set_strengths(const nb::object& law, terrain::LoadedNodes& nodes) {
   std::copy_n(strength.data(), count, nodes.strength.begin());
 }
 
-// Sets the number of threads of the calls of this thread during its lifetime.
-class ThreadScope {
- public:
-  explicit ThreadScope(int threads) : before_(thread_count()) { run::use_threads(threads); }
-  ~ThreadScope() { set_thread_count(before_); }
-  ThreadScope(const ThreadScope&) = delete;
-  ThreadScope& operator=(const ThreadScope&) = delete;
-
- private:
-  int before_;
-};
-
 // Result of work() without the GIL, with the exceptions of the observer.
 template <class Work>
 auto computed(PythonObserver& observer, int threads, const Work& work) {

@@ -107,7 +107,7 @@ double steps_to_end(sim::Simulation<Dim>& simulation) {
 
 template <int Dim>
 RunCost cost_on_cpu(sim::Simulation<Dim>& simulation, double steps) {
-  const SingleThreadScope one_thread;
+  const ThreadScope one_thread(1);
   const double wall = wall_clock(), processor = thread_clock();
   const int performed = repeat([&] { return advance(simulation); }, thread_clock);
   const double seconds = thread_clock() - processor;

@@ -315,8 +315,6 @@ std::filesystem::path usual_run_folder(const config::Case& parameters) {
   return std::filesystem::path("runs") / parameters.name;
 }
 
-void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
-
 template <int Dim>
 ExitCode start_and_run(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder,
                        Observer& observer) {

@@ -28,9 +28,6 @@ auto with_dimension(int dimension, const Work& work) {
 // Default output folder.
 [[nodiscard]] std::filesystem::path usual_run_folder(const config::Case& parameters);
 
-// Sets the number of threads; 0: all available cores.
-void use_threads(int threads);
-
 // Output times: every multiple of an interval, and the end.
 class Schedule {
  public:

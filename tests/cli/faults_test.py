@@ -46,12 +46,10 @@ def test_a_failing_write_loses_nothing(binary: Path, small_case: Path, tmp_path:
 def test_exceptions_are_reported(thawslide: Program, small_case: Path, tmp_path: Path, reason: str, words: str) -> None:
     """Any exception that no code expects: here one that opening the lock of the run throws."""
     command = ["run", small_case, "--output", tmp_path / "run"]
-    environment = faults.environment_of_fault(tmp_path / "run", 2, "once", reason) | {"TMPDIR": str(tmp_path)}
+    environment = faults.environment_of_fault(tmp_path / "run", 2, "once", reason)
     message = thawslide.error(*command, code=1, environment=environment)
-    (log,) = tmp_path.glob("thawslide-error-*.log")
-    assert message == f"error: internal error, please report it with {log}: {words}\n"
-    version, called, cause = log.read_text().splitlines()
-    assert version.startswith("thawslide ") and called.endswith(" ".join(map(str, command))) and cause == words
+    assert message.startswith("error: internal error of thawslide ")
+    assert message.endswith(f", please report it with the command line: {words}\n")
 
 
 @pytest.mark.parametrize("size", [1_000, 9_000, 20_000])

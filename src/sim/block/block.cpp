@@ -370,7 +370,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));
   const long every = std::max(1L, std::lround(interval / dt));
-  const SingleThreadScope alone;  // waking other threads for one column takes longer than its step
+  const ThreadScope alone(1);  // waking other threads for one column takes longer than its step
   std::vector<HistoryRow> rows{block.row()};
   for (long k = 1; k <= steps; ++k) {
     block.step(dt);

@@ -79,11 +79,11 @@ TEST(ParallelSum, AddsEachOnceAndInTheSameOrderOnAnyThreads) {
   set_thread_count(before);
 }
 
-TEST(SingleThreadScope, RestoresTheNumberOfThreads) {
+TEST(ThreadScope, RestoresTheNumberOfThreads) {
   const int before = thread_count();
   set_thread_count(3);
   {
-    const SingleThreadScope alone;
+    const ThreadScope alone(1);
     EXPECT_EQ(thread_count(), 1);
   }
   EXPECT_EQ(thread_count(), 3);

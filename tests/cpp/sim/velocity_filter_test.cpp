@@ -244,7 +244,7 @@ Swing swing(const Sets& sets) {
   }
   set_velocities(simulation, Velocities(1e-3 * form));
   std::vector<double> velocity;
-  const SingleThreadScope alone;  // for so short a bar, starting other threads takes longer than a step
+  const ThreadScope alone(1);  // for so short a bar, starting other threads takes longer than a step
   for (int k = 1; k <= 40 * interval_in_steps; ++k) {
     simulation.step(bar_step);
     if (k % interval_in_steps == 0) {
