@@ -110,7 +110,7 @@ SetupFacts facts_of(sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>
 
 int check_case(const CheckOptions& options) {
   use_threads(options.threads);
-  const config::Case parameters = case_of(options.of_case);
+  const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return run::with_dimension(parameters.general.dimension, [&]<int Dim>(
                                                                std::integral_constant<int, Dim> /*dimension*/) {
     Terminal terminal;

@@ -11,10 +11,7 @@ namespace thawslide::app {
 struct CaseOptions {
   std::string file;
   std::vector<std::string> sets;
-  bool coarse = false;  // a trial on cells of twice the size
 };
-// Reads the case with its options. Throws UserError.
-[[nodiscard]] config::Case case_of(const CaseOptions& options);
 
 struct RunOptions {
   CaseOptions of_case;
@@ -36,11 +33,7 @@ struct ResumeOptions {
 };
 int resume_run(const ResumeOptions& options);
 
-struct StatusOptions {
-  std::string folder;
-  bool json = false;
-};
-int print_status(const StatusOptions& options);
+int print_status(const std::string& folder, bool json);
 
 struct CheckOptions {
   CaseOptions of_case;
@@ -51,11 +44,7 @@ struct CheckOptions {
 };
 int check_case(const CheckOptions& options);
 
-struct BlockOptions {
-  CaseOptions of_case;
-  std::string output;
-};
-int run_block_model(const BlockOptions& options);
+int run_block_model(const CaseOptions& of_case, const std::string& output);
 
 // Input files of a new case.
 struct MapOptions {

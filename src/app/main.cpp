@@ -33,11 +33,6 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
       ->allow_extra_args(false);
 }
 
-void add_coarse_option(CLI::App& command, CaseOptions& options) {
-  command.add_flag("--coarse", options.coarse,
-                   "Trial on cells, fixed steps and map cells of twice the size (folder of a run: runs/NAME-coarse)");
-}
-
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Maximum number of threads (default: the cores available to the process)")
       ->check(CLI::Range(1, 1024));
@@ -133,7 +128,6 @@ int run_program(int count, char** arguments) {
   RunOptions run_options;
   CLI::App* run = program.add_subcommand("run", "Run a case");
   add_case_options(*run, run_options.of_case);
-  add_coarse_option(*run, run_options.of_case);
   add_threads_option(*run, run_options.threads);
   add_device_option(*run, run_options.device);
   run->add_option("--end", run_options.end, "End of the run [s]; short for --set time.end=END")->check(above_zero());
@@ -160,17 +154,17 @@ int run_program(int count, char** arguments) {
       ->check(above_zero());
   resume->callback([&] { exit_code = resume_run(resume_options); });
 
-  StatusOptions status_options;
+  std::string status_folder;
+  bool status_json = false;
   CLI::App* status =
       program.add_subcommand("status", "Report whether a run is active, its progress, and how to continue it");
-  status->add_option("run", status_options.folder, "Folder of the run")->required();
-  status->add_flag("--json", status_options.json, "Print JSON");
-  status->callback([&] { exit_code = print_status(status_options); });
+  status->add_option("run", status_folder, "Folder of the run")->required();
+  status->add_flag("--json", status_json, "Print JSON");
+  status->callback([&] { exit_code = print_status(status_folder, status_json); });
 
   CheckOptions check_options;
   CLI::App* check = program.add_subcommand("check", "Validate a case and estimate the cost of its run");
   add_case_options(*check, check_options.of_case);
-  add_coarse_option(*check, check_options.of_case);
   add_threads_option(*check, check_options.threads);
   CLI::Option* picture = check->add_option(
       "--picture", check_options.picture,
@@ -182,11 +176,12 @@ int run_program(int count, char** arguments) {
     exit_code = check_case(check_options);
   });
 
-  BlockOptions block_options;
+  CaseOptions block_case;
+  std::string block_output;
   CLI::App* block = program.add_subcommand("block", "Simulate a case as a rigid block, in less than a second");
-  add_case_options(*block, block_options.of_case);
-  block->add_option("--output", block_options.output, "CSV file of the results (default: some rows are printed)");
-  block->callback([&] { exit_code = run_block_model(block_options); });
+  add_case_options(*block, block_case);
+  block->add_option("--output", block_output, "CSV file of the results (default: some rows are printed)");
+  block->callback([&] { exit_code = run_block_model(block_case, block_output); });
 
   NewOptions new_options;
   CLI::App* make_new = program.add_subcommand("new", "Create a case folder from a DEM and a release area");

@@ -145,25 +145,25 @@ std::string describe_outputs() {
 
 }  // namespace
 
-int run_block_model(const BlockOptions& options) {
-  const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
-  if (!options.output.empty()) {
-    run::require_no_input_at(options.output, "--output", parameters);
+int run_block_model(const CaseOptions& of_case, const std::string& output) {
+  const config::Case parameters = config::read_case(of_case.file, of_case.sets);
+  if (!output.empty()) {
+    run::require_no_input_at(output, "--output", parameters);
   }
   Terminal terminal;
   const std::vector<sim::HistoryRow> rows = run::block_rows(parameters, terminal);
-  if (options.output.empty()) {
+  if (output.empty()) {
     print_table(rows);
     const auto& first = rows.front();
     fmt::print("safety factor at the start: {:.3f} (sliding strength over driving traction)\n",
                run::value_of(first, "sliding_strength_Pa") / std::abs(run::value_of(first, "driving_traction_Pa")));
     return static_cast<int>(ExitCode::done);
   }
-  io::HistoryWriter writer(options.output);
+  io::HistoryWriter writer(output);
   for (const sim::HistoryRow& row : rows) {
     writer.add(row);
   }
-  fmt::print("{} rows in {}\n", rows.size(), options.output);
+  fmt::print("{} rows in {}\n", rows.size(), output);
   return static_cast<int>(ExitCode::done);
 }
 

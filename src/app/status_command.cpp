@@ -174,9 +174,9 @@ std::string text_of(const fs::path& folder, const RunStatus& status) {
 
 }  // namespace
 
-int print_status(const StatusOptions& options) {
-  const RunStatus status = status_of(options.folder);
-  fmt::print("{}", options.json ? json_text(status) + "\n" : text_of(options.folder, status));
+int print_status(const std::string& folder, bool json) {
+  const RunStatus status = status_of(folder);
+  fmt::print("{}", json ? json_text(status) + "\n" : text_of(folder, status));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -1,17 +1,16 @@
-"""What `check` and `run` report before a computation: errors, costs, and trials on coarse cells (`--coarse`)."""
+"""What `check` and `run` report before a computation: errors and costs."""
 
 import json
 import os
 import re
 import subprocess
 import sys
-import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from conftest import FALL, ROOT, Program, Ran, content_of, edit, run_facts, sets, snapshot_files, with_profile
+from conftest import FALL, ROOT, Program, Ran, content_of, run_facts, sets, snapshot_files, with_profile
 
 
 def test_a_run_is_kept_until_a_case_replaces_it(ran: Ran, thawslide: Program, small_case: Path) -> None:
@@ -145,42 +144,3 @@ def test_the_cost_does_not_depend_on_other_processes_and_says_that_there_are_som
     assert 1 / 3 < beside["processor_s"] / alone["processor_s"] < 3
     assert beside["slowdown"] > 3 * min(alone["slowdown"], 1.5)
     assert "of processor time (this machine is busy: " in printed
-
-
-def test_a_trial_has_double_cells_and_steps_in_its_own_folder(thawslide: Program, small_case: Path) -> None:
-    case = tomllib.loads((small_case / "case.toml").read_text())
-    thawslide.ok("run", small_case, "--coarse", "--end", "0.05", folder=small_case)
-    (run,) = (small_case / "runs").iterdir()
-    assert run.name == f"{small_case.name}-coarse"
-    resolved = tomllib.loads((run / "case.toml").read_text())
-    assert resolved["grid"]["cell"] == 2.0 * case["grid"]["cell"]
-    assert resolved["time"]["step"] == 2.0 * case["time"]["step"]
-    assert run_facts(run)["steps"] == round(0.05 / resolved["time"]["step"])
-
-
-def test_a_trial_of_another_cell_is_refused(thawslide: Program, small_case: Path) -> None:
-    message = thawslide.error("run", small_case, "--coarse", "--set", "grid.cell=0.5")
-    assert message == "error: --coarse sets grid.cell: omit --coarse, or --set grid.cell.\n"
-    message = thawslide.error("run", small_case, "--coarse", "--pair")
-    assert message == "error: --pair runs the case on coarse cells, too: omit --coarse.\n"
-
-
-def test_a_trial_keeps_a_given_step(thawslide: Program, small_case: Path) -> None:
-    trial = thawslide.json("check", small_case, "--coarse", "--set", "time.step=0.001")
-    assert trial["steps"] == thawslide.json("check", small_case, "--set", "time.step=0.001")["steps"]
-
-
-def test_a_trial_of_adaptive_steps_has_no_upper_limit_of_the_step(thawslide: Program, small_case: Path) -> None:
-    edit(small_case / "case.toml", "step = 0.001", 'stepping = "adaptive"')
-    words = ("check", small_case, "--set", "time.end=9")
-    assert "time.step" not in thawslide.ok(*words, "--coarse")
-    given = thawslide.ok(*words, "--coarse", "--set", "time.step=0.8")
-    assert "warning: --set time.step=0.8: time.step is 0.8 s" in given
-    edit(small_case / "case.toml", 'stepping = "adaptive"', 'stepping = "adaptive"\nstep = 0.4')
-    trial = thawslide.ok(*words, "--coarse")
-    assert "warning: --coarse: time.step is 0.8 s" in trial and "warning: --coarse: grid.cell: across" in trial
-
-
-def test_an_error_of_a_trial_names_no_option_that_was_not_given(thawslide: Program, small_case: Path) -> None:
-    message = thawslide.error("check", small_case, "--coarse", "--set", "grid.max=[21.0, 10.0]")
-    assert message.startswith("error: --coarse, which sets cells of 2 m: ") and "--set grid.cell" not in message
