@@ -52,26 +52,6 @@ gis::Rectangle span_of_dem(const std::string& dem) {
   }
 }
 
-// The predicate of a sentence about the block.
-std::string reach_text(const fs::path& folder, const config::ProposedBase& base, const char* longer) {
-  constexpr double leaves = 1.0, moves = 0.01;  // m; fraction of the peak speed
-  const run::BlockReach reach = run::block_reach(config::read_case(folder));
-  const std::string at = fmt::format("{} m, at {} m/s", with_commas(reach.distance, 3), rounded_text(reach.speed, 2));
-  if (reach.end == run::PathEnd::terrain) {
-    return fmt::format("reaches the end of the known terrain after {}. {}", at, longer);
-  }
-  if (reach.end == run::PathEnd::depression) {
-    return fmt::format("reaches a closed depression of the terrain after {}. Set maps.path to follow it further", at);
-  }
-  if (reach.displacement < leaves) {
-    return fmt::format("does not leave; it needs a basal.friction_angle below {:.1f} degrees", base.friction);
-  }
-  if (reach.speed > moves * reach.peak_speed) {
-    return fmt::format("still moves at time.end, after {}", at);
-  }
-  return fmt::format("travels {} m, H/L {:.2f}", with_commas(reach.distance, 3), reach.ratio);
-}
-
 }  // namespace
 
 std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
@@ -82,7 +62,7 @@ std::optional<config::ProposedBase> base_by_block(const fs::path& folder) {
   }
 }
 
-std::string base_text(const config::ProposedBase& base, const fs::path& folder, const char* longer) {
+std::string base_text(const config::ProposedBase& base) {
   std::string text =
       fmt::format("base:        a band of {:.1f} m, which a rigid block without pore pressure heats to {:.0f} C",
                   base.thickness, base.temperature);
@@ -91,7 +71,7 @@ std::string base_text(const config::ProposedBase& base, const fs::path& folder, 
         fmt::format("\n             safety factor {:.2g} at the start: {} Pa of cohesion would have held the release",
                     base.safety_factor, rounded_text(base.missing_cohesion, 2));
   }
-  text += fmt::format("\nblock:       a rigid block with pore pressure {}\n", reach_text(folder, base, longer));
+  text += "\n";
   if (base.temperature > config::ProposedBase::limit) {
     text += fmt::format(
         "warning: band.thickness: friction heats the base of the rigid block above {:g} C, which is not credible "
@@ -230,7 +210,7 @@ void make_new_folder(const fs::path& folder) {
 
 void print_next_commands(const std::string& program, const fs::path& folder) {
   const std::string called = shell_quote(program), made = shell_quote(folder.string());
-  fmt::print("preview:  {} check {} --picture\nrun:      {} run {}\n", called, made, called, made);
+  fmt::print("preview:  {0} check {1} --picture\nblock:    {0} block {1}\nrun:      {0} run {1}\n", called, made);
 }
 
 }  // namespace thawslide::app

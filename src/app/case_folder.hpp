@@ -41,8 +41,8 @@ std::string title_of(const std::filesystem::path& folder);
 // Base of the case in a folder by the rigid block, or nothing if it has no path.
 std::optional<config::ProposedBase> base_by_block(const std::filesystem::path& folder);
 
-// Lines that state a proposed base, and what the rigid block of the case does. longer: how to extend the terrain.
-std::string base_text(const config::ProposedBase& base, const std::filesystem::path& folder, const char* longer);
+// Lines that state a proposed base.
+std::string base_text(const config::ProposedBase& base);
 
 // Creates the folder. Throws UserError if it exists and is not empty.
 void make_new_folder(const std::filesystem::path& folder);

@@ -306,7 +306,7 @@ int make_new_case(const NewOptions& options) {
                (folder / "case.toml").string());
   }
   if (input.base) {
-    fmt::print("{}", base_text(*input.base, folder, "Use a larger DEM"));
+    fmt::print("{}", base_text(*input.base));
   }
   config::BodyOnCells body = config::release_on_cells(proposal);
   body.has_maps = resolution.empty() || !cost;  // otherwise the text above states the cells for maps

@@ -170,7 +170,7 @@ int make_section(const SectionOptions& options) {
              (folder / "case.toml").string(), rounded_text(proposal.volume, 3), rounded_text(proposal.thickness, 3),
              proposal.cell, rounded_text(proposal.particles));
   if (base) {
-    fmt::print("{}", base_text(*base, folder, "Use a longer line"));
+    fmt::print("{}", base_text(*base));
   }
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);

@@ -35,18 +35,8 @@ void report_valley_factor(const std::vector<sim::HistoryRow>& rows, Observer& ob
   }
 }
 
-struct Motion {
-  std::vector<sim::HistoryRow> rows;
-  PathEnd end = PathEnd::none;
-};
-
-class SilentObserver : public Observer {
-  void text(const std::string& /*line*/) override {}
-  void error(const std::string& /*line*/) override {}
-};
-
 // Runs a 3D case as a section along its path.
-Motion block_along_path(const config::Case& parameters, Warnings& warnings, Observer& observer) {
+std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings, Observer& observer) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   std::vector<sim::HistoryRow> rows =
       sim::run_block(section.parameters, section.site, section.valley_factor, section.start);
@@ -75,14 +65,12 @@ Motion block_along_path(const config::Case& parameters, Warnings& warnings, Obse
                                        : fmt::format(". The front reaches it at {} s, and the block stops there. Set "
                                                      "maps.path to a longer line to follow the slide further",
                                                      rounded_text(value_of(*beyond, "time_s"), 3)));
-    const PathEnd reached = beyond == rows.end() ? PathEnd::none : PathEnd::depression;
     rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
     report_valley_factor(rows, observer);
-    return {std::move(rows), reached};
+    return rows;
   }
   const double end = section.site.profile.distance.back();
   const auto beyond = first_beyond(end);
-  const PathEnd reached = beyond == rows.end() ? PathEnd::none : PathEnd::terrain;
   if (beyond != rows.end()) {
     observer.line(
         "warning: maps.path: the front leaves the DEM after {} m, at {} s, and the table ends there. Use {} to follow "
@@ -93,14 +81,14 @@ Motion block_along_path(const config::Case& parameters, Warnings& warnings, Obse
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
   report_valley_factor(rows, observer);
-  return {std::move(rows), reached};
+  return rows;
 }
 
 // On a profile without extrapolation, the results end with it.
-Motion block_on_profile(const config::Case& parameters, Observer& observer) {
+std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Observer& observer) {
   std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
   if (parameters.terrain.kind != config::TerrainKind::profile || parameters.terrain.extend) {
-    return {std::move(rows)};
+    return rows;
   }
   const config::ProfileTable profile = config::read_profile(parameters.terrain.file);
   const double first = profile.distance.front(), last = profile.distance.back();
@@ -108,7 +96,6 @@ Motion block_on_profile(const config::Case& parameters, Observer& observer) {
     const double front = value_of(row, "front_position_m");
     return front < first || front > last;
   });
-  const PathEnd reached = beyond == rows.end() ? PathEnd::none : PathEnd::terrain;
   if (beyond != rows.end()) {
     observer.line(
         "warning: the profile is known from {} to {} m; the front leaves it at {} s, and the rows end before. Give a "
@@ -116,14 +103,7 @@ Motion block_on_profile(const config::Case& parameters, Observer& observer) {
         coordinate_text(first), coordinate_text(last), rounded_text(value_of(*beyond, "time_s"), 3));
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
-  return {std::move(rows), reached};
-}
-
-Motion block_motion(const config::Case& parameters, Observer& observer) {
-  Warnings warnings(&observer);
-  warnings.add(config::notices(parameters));
-  return parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters, warnings, observer)
-                                                             : block_on_profile(parameters, observer);
+  return rows;
 }
 
 // Base whose band is the thinnest that config::ProposedBase allows. run(): rows of the block of `parameters`. end: of
@@ -167,20 +147,10 @@ double value_of(const sim::HistoryRow& row, const std::string& name) {
 }
 
 std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer) {
-  return block_motion(parameters, observer).rows;
-}
-
-BlockReach block_reach(const config::Case& parameters) {
-  SilentObserver silent;
-  const auto [rows, end] = block_motion(parameters, silent);
-  const auto last = [&rows = rows](const char* name) { return value_of(rows.back(), name); };
-  BlockReach reach{end, last("displacement_m"), last("travel_distance_m")};
-  reach.ratio = last("drop_height_m") / reach.distance;
-  reach.speed = last("velocity_m_s");
-  for (const sim::HistoryRow& row : rows) {
-    reach.peak_speed = std::max(reach.peak_speed, value_of(row, "velocity_m_s"));
-  }
-  return reach;
+  Warnings warnings(&observer);
+  warnings.add(config::notices(parameters));
+  return parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters, warnings, observer)
+                                                             : block_on_profile(parameters, observer);
 }
 
 config::ProposedBase propose_base(config::Case parameters) {
@@ -189,8 +159,7 @@ config::ProposedBase propose_base(config::Case parameters) {
     const double end = config::read_profile(parameters.terrain.file).distance.back();
     return thinnest_band(parameters, end, [&] { return sim::run_block(parameters); });
   }
-  SilentObserver silent;
-  Warnings warnings(&silent);
+  Warnings warnings;
   sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   const double end = section.pit ? section.pit->along : section.site.profile.distance.back();
   return thinnest_band(section.parameters, end, [&] {

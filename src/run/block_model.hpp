@@ -14,22 +14,9 @@ namespace thawslide::run {
 // Value of a column of a row.
 [[nodiscard]] double value_of(const sim::HistoryRow& row, const std::string& name);
 
-enum class PathEnd { none, terrain, depression };
-
 // Rows of the block's motion up to the end of the run or of the known terrain. Reports warnings of the case, and where
 // the terrain ends the motion. Throws UserError.
 [[nodiscard]] std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer);
-
-// What the block of a new case does.
-struct BlockReach {
-  PathEnd end = PathEnd::none;                // what it reaches before time.end
-  double displacement = 0.0, distance = 0.0;  // of its middle, and L [m]
-  double ratio = 0.0;                         // H/L
-  double speed = 0.0, peak_speed = 0.0;       // at the end [m/s]
-};
-
-// The same motion without reports. Throws UserError.
-[[nodiscard]] BlockReach block_reach(const config::Case& parameters);
 
 // Base [basal] of a new case: the thinnest band that config::ProposedBase allows, without substrates. Throws UserError.
 [[nodiscard]] config::ProposedBase propose_base(config::Case parameters);

@@ -1,4 +1,4 @@
-"""Cases by `thawslide new`: their rigid block, releases near an edge and cut out, resolutions, and warnings."""
+"""Cases by `thawslide new`: their base, releases near an edge and cut out, resolutions, and warnings."""
 
 import math
 import re
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import terrain_files
-from conftest import ROOT, Program, Ran, Slope, columns_of, history, release_volume, sets
+from conftest import Program, Ran, Slope, history, release_volume, sets
 from terrain_files import CELL, DEPTH, SOUTH, WEST, WIDTH, write_dem, write_line, write_rectangle
 
 
@@ -47,7 +47,8 @@ def test_holes_in_the_flow_path_have_a_warning(thawslide: Program, tmp_path: Pat
 def test_new_prints_the_next_commands(binary: Path, tmp_path: Path, slope: Slope) -> None:
     folder = tmp_path / "a slide"
     outcome = slope.new(folder=folder)
-    assert f"preview:  {binary} check '{folder}' --picture\nrun:      {binary} run '{folder}'\n" in outcome.stdout
+    assert f"preview:  {binary} check '{folder}' --picture\nblock:    {binary} block '{folder}'\n" in outcome.stdout
+    assert f"run:      {binary} run '{folder}'\n" in outcome.stdout
     assert f"forecast: {binary} forecast '{folder}'\n" in outcome.stdout
 
 
@@ -155,15 +156,6 @@ def test_a_section_has_the_ramps_too(thawslide: Program, tmp_path: Path) -> None
     assert -0.05 < steepest < 0.01, "the base falls or is level everywhere"
 
 
-VALLEY = ROOT / "cases" / "valley3d"
-
-
-def block_line(printed: str) -> str:
-    found = re.findall(r"^block:       a rigid block with pore pressure (.*)$", printed, re.MULTILINE)
-    assert len(found) == 1, printed
-    return str(found[0])
-
-
 def test_a_base_above_the_limit_of_temperature_has_a_warning(thawslide: Program, tmp_path: Path) -> None:
     dem = write_dem(tmp_path / "dem.tif", lambda x, y: 4000.0 - np.minimum(x, 2800.0) - 0.1 * x, 180, 60, 20.0)
     corners = [(400.0, 400.0), (900.0, 400.0), (900.0, 800.0), (400.0, 800.0)]
@@ -182,45 +174,6 @@ def test_a_base_above_the_limit_of_temperature_has_a_warning(thawslide: Program,
 def test_a_release_that_leaves_the_dem_at_once_has_a_case(slope: Slope) -> None:
     slope(degrees=45.0, foot=800.0)
     assert "/case.toml: a release of 1,800,000 m3, 150 m thick, on " in slope.ok(thickness=150)
-
-
-def test_a_block_that_stays_states_the_friction_with_which_it_leaves(thawslide: Program, slope: Slope) -> None:
-    slope(degrees=8.0, foot=800.0)
-    printed = slope.ok(thickness=20)
-    line = block_line(printed)
-    found = re.fullmatch(r"does not leave; it needs a basal\.friction_angle below (8\.[01]) degrees", line)
-    assert found, printed
-    rows = slope.folder / "block.csv"
-    for angle, leaves in ((float(found[1]) + 0.1, False), (float(found[1]) - 0.1, True)):
-        thawslide.ok("block", slope.case, "--set", f"basal.friction_angle={angle}", "--output", rows)
-        assert (columns_of(rows)["displacement_m"][-1] > 1.0) == leaves
-
-
-def test_a_block_that_comes_to_rest_has_a_travel_distance(thawslide: Program, tmp_path: Path) -> None:
-    dem = write_dem(tmp_path / "dem.tif", lambda x, y: 1000.0 - 0.5 * np.minimum(x, 400.0) - 0.1 * x, columns=200)
-    corners = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
-    release = terrain_files.write_release(tmp_path / "release.geojson", corners, thickness=20.0)
-    line = block_line(thawslide.ok("new", tmp_path / "slide", "--dem", dem, "--release", release))
-    rows = tmp_path / "block.csv"
-    thawslide.ok("block", tmp_path / "slide", "--output", rows)
-    columns = columns_of(rows)
-    length, height = (columns[name][-1] for name in ("travel_distance_m", "drop_height_m"))
-    found = re.fullmatch(r"travels ([\d,]+) m, H/L (0\.\d\d)", line)
-    assert found, line
-    assert float(found[1].replace(",", "")) == pytest.approx(length, rel=0.01)
-    assert float(found[2]) == pytest.approx(height / length, abs=0.006)
-
-
-def test_a_block_that_reaches_the_end_of_the_dem_states_it(thawslide: Program, tmp_path: Path) -> None:
-    words = ["--dem", VALLEY / "valley.tif", "--release", VALLEY / "release.geojson"]
-    line = block_line(thawslide.ok("new", tmp_path / "slide", *words))
-    found = re.fullmatch(r"reaches the end of the known terrain after ([\d,]+) m, at (\d+) m/s\. Use a larger .*", line)
-    assert found, line
-    rows = tmp_path / "block.csv"
-    assert "the front leaves the DEM" in thawslide.ok("block", tmp_path / "slide", "--output", rows)
-    columns = columns_of(rows)
-    assert float(found[1].replace(",", "")) == pytest.approx(columns["travel_distance_m"][-1], rel=0.01)
-    assert float(found[2]) == pytest.approx(columns["velocity_m_s"][-1], abs=1.0)
 
 
 @pytest.mark.parametrize(
