@@ -1,3 +1,4 @@
+// Figure of the setup of a case: its description as JSON, and the call of the program that plots it.
 #include <sys/wait.h>
 #include <unistd.h>
 
