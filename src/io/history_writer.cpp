@@ -56,17 +56,11 @@ std::string header_of(const HistoryWriter::Row& row) {
 }
 
 std::optional<double> last_time_in_history(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) {
-    return std::nullopt;
-  }
-  const std::string text = read_file(file);
+  const std::string text = std::filesystem::exists(file) ? read_file(file) : "";
   const std::size_t end = text.rfind('\n');
-  if (end == std::string::npos || end == 0) {
-    return std::nullopt;
-  }
-  const std::size_t before = text.rfind('\n', end - 1);
+  const std::size_t before = end == 0 || end == std::string::npos ? std::string::npos : text.rfind('\n', end - 1);
   if (before == std::string::npos) {
-    return std::nullopt;  // only the header
+    return std::nullopt;  // at most the header
   }
   double time = 0.0;
   const auto parsed = std::from_chars(text.data() + before + 1, text.data() + end, time);

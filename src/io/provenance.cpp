@@ -1,5 +1,7 @@
 #include "io/provenance.hpp"
 
+#include <fmt/chrono.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -39,14 +41,7 @@ std::string command_line() {
   return text;
 }
 
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
+std::string now_utc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 // Calls work(key of run.json, member) for the members of a part.
 template <class Part, class Work>

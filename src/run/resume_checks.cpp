@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
-#include "config/read_case.hpp"
 #include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "run/input_files.hpp"
@@ -74,16 +73,6 @@ void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& fac
 }
 
 }  // namespace
-
-std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes,
-                      const std::string& otherwise) {
-  const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
-  if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
-    return fmt::format("Specify a new end on the command line: thawslide resume {} --end {}.",
-                       shell_quote(folder.string()), config::read_case(folder).time.end);
-  }
-  return otherwise;
-}
 
 void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs, const config::Case& now) {
   std::vector<std::string> changed;
@@ -154,12 +143,10 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   if (!cut_off) {
     const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
     if (!changes.empty()) {
-      const std::string usual = fmt::format(
-          "Put that back, or remove the file, which is then written again. Specify changes on the command line: "
-          "thawslide resume {} --set KEY=VALUE, or --end T.",
-          shell_quote(folder.string()));
-      throw UserError("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
-                      fmt::join(changes, "; "), advice_on(folder, facts, changes, usual));
+      throw UserError(
+          "{} has changed since the run wrote its checkpoint: {}. Put that back, or remove the file, which is then "
+          "written again. Specify changes on the command line: thawslide resume {} --set KEY=VALUE, or --end T.",
+          file.string(), fmt::join(changes, "; "), shell_quote(folder.string()));
     }
     cut_off = changes_cut_off(facts, io::sha256_hex(before));  // the case text is that of the checkpoint
   }

@@ -11,10 +11,6 @@
 
 namespace thawslide::run {
 
-// Advice on changes of case.toml; `otherwise`: advice for changes other than a later end.
-[[nodiscard]] std::string advice_on(const std::filesystem::path& folder, const io::Provenance& facts,
-                                    const std::vector<std::string>& changes, const std::string& otherwise);
-
 // Requires that the copies of the inputs are unchanged, and that no file has been added to a copied map. Those of
 // [report] may change, because they are used only for comparison in figures.
 void require_same_inputs(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,

@@ -126,12 +126,13 @@ std::string front_text(double front, double runout) {
 template <int Dim>
 void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                     double wall, const std::filesystem::path& folder, Observer& observer) {
-  const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
+  const std::size_t at_start = output.provenance().particles, at_end = simulation.particles().size();
   observer.line("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}",
                 count_text(static_cast<double>(at_start)),
                 at_end == at_start ? "" : fmt::format(", {} at the end", count_text(static_cast<double>(at_end))),
-                count_text(static_cast<double>(steps)), duration_text(wall), output.particle_steps() / wall / 1e6,
-                thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
+                count_text(static_cast<double>(steps)), duration_text(wall),
+                output.provenance().parts.back().particle_steps / wall / 1e6, thread_count() == 1 ? "" : "at most ",
+                thread_count(), thread_count() == 1 ? "" : "s");
   const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::ranges::find_if(row, [&](const auto& entry) { return entry.first == name; })->second;
@@ -140,7 +141,7 @@ void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>
                 value("mean_velocity_m_s"), value("mean_displacement_m"),
                 front_text(value("front_position_m"), value("runout_m")));
   const bool is_per_metre = Dim == 2 && !(simulation.parameters().general.width.reference() > 0.0);
-  for (const auto& figure : output.figures()) {
+  for (const auto& figure : output.provenance().figures) {
     const auto* const shown = std::find_if(std::begin(shown_figures), std::end(shown_figures),
                                            [&](const ShownFigure& each) { return figure.first == each.name; });
     if (shown != std::end(shown_figures) && std::isfinite(figure.second)) {
@@ -151,7 +152,7 @@ void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>
   if (simulation.removed().by_guards() > 0) {
     observer.line("guards have removed {}", sim::text_of(simulation.removed()));
   }
-  for (const std::string& warning : output.warnings()) {
+  for (const std::string& warning : output.provenance().warnings) {
     observer.line("warning: {}", warning);
   }
   observer.line("results in {}", folder.string());

@@ -312,13 +312,6 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
 }
 
 template <int Dim>
-Stopwatch::Seconds RunOutput<Dim>::seconds_per_stage(const Simulation& simulation) const {
-  Stopwatch::Seconds seconds = simulation.stopwatch().seconds();
-  seconds.insert(stopwatch_.seconds().begin(), stopwatch_.seconds().end());
-  return seconds;
-}
-
-template <int Dim>
 void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::string& status,
                                       const std::string& message, double wall_seconds) {
   own_.require();
@@ -330,7 +323,8 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   const sim::Removed& removed = simulation.removed();
   provenance_.removed = {{"left", removed.left}, {"not_finite", removed.not_finite}, {"volume", removed.volume}};
   provenance_.parts.back().wall_seconds = wall_seconds;
-  provenance_.seconds_per_stage = seconds_per_stage(simulation);
+  provenance_.seconds_per_stage = simulation.stopwatch().seconds();
+  provenance_.seconds_per_stage.insert(stopwatch_.seconds().begin(), stopwatch_.seconds().end());
   provenance_.writer_seconds = snapshots_.writer_seconds();
   io::write_provenance(folder_ / "run.json", provenance_);
 }

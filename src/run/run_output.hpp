@@ -50,11 +50,9 @@ class RunOutput {
   void after_step(const Simulation& simulation);
   // Replaces after_step after a step that removed the last of the slide.
   void slide_left();
-  // End state in run.json, as of the last call of write_provenance.
+  // End state, and contents of run.json, as of the last call of write_provenance.
   [[nodiscard]] const sim::EndState& end_state() const { return end_state_; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return provenance_.warnings; }
-  // Those of this part of the run: changed inputs and damaged files.
-  [[nodiscard]] const std::vector<std::string>& warnings_of_part() const { return provenance_.parts.back().warnings; }
+  [[nodiscard]] const io::Provenance& provenance() const { return provenance_; }
   // Throws WriteError if the run's folder was replaced by another one.
   void require_own_folder() const { own_.require(); }
   // Writes one row of history.csv, and of probes.csv if there are probes.
@@ -77,13 +75,6 @@ class RunOutput {
   // Writes run.json; status: running, done, stopped or failed; wall_seconds: of this process.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
                         double wall_seconds);
-  // Key figures by name as in run.json, in 3D.
-  [[nodiscard]] const std::vector<std::pair<std::string, double>>& figures() const { return provenance_.figures; }
-  // Amount of work as in run.json: particles at the start, and the sum of particles over this process's steps.
-  [[nodiscard]] std::size_t particles_at_start() const { return provenance_.particles; }
-  [[nodiscard]] double particle_steps() const { return provenance_.parts.back().particle_steps; }
-  // Wall-clock time [s] of the step's stages and of writing.
-  [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 
  private:
   RunOutput(const std::filesystem::path& folder, sim::RunRecords<Dim> records, io::HistoryWriter history,

@@ -45,7 +45,9 @@ ExitCode leave_finished(const fs::path& folder, const io::Provenance& facts, Obs
     if (!changes.empty()) {
       throw UserError("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
                       facts.simulated_time, file.string(), fmt::join(changes, "; "),
-                      is_known ? advice_on(folder, facts, changes, "Put that back, or run the case again.")
+                      is_known ? fmt::format("Put that back, or specify changes on the command line: thawslide resume "
+                                             "{} --set KEY=VALUE --end T.",
+                                             shell_quote(folder.string()))
                                : "There is no checkpoint to continue from: run the case again.");
     }
   }
@@ -215,7 +217,7 @@ ExitCode continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpo
                                                              checkpoint.warning, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
-  for (const std::string& warning : output.warnings_of_part()) {
+  for (const std::string& warning : output.provenance().parts.back().warnings) {
     observer.line("warning: {}", warning);
   }
   observer.line("continuing from t = {:g} s{}", simulation.time(),

@@ -100,11 +100,10 @@ LOST = (
          "back, or remove the file, which is then written again. Specify changes on the command line: "
          "thawslide resume {run} --set KEY=VALUE, or --end T.\n"),
         (changed_case(END), "",
-         SINCE_CHECKPOINT + "time.end is 0.4, was 0.2. Specify a new end on the command line: "
-         "thawslide resume {run} --end 0.4.\n"),
+         SINCE_CHECKPOINT + "time.end is 0.4, was 0.2. Put that back, or remove the file, "),
         (lambda run: edit(run / "case.toml", *END), "",
          "{run} has reached its end at 0.2 s, and {run}/case.toml has changed since: time.end is 0.4, was 0.2. "
-         "Specify a new end on the command line: thawslide resume {run} --end 0.4.\n"),
+         "Put that back, or specify changes on the command line: thawslide resume {run} --set KEY=VALUE --end T.\n"),
         (changed_before_checkpoint, "", SINCE_START),
         (changed_before_checkpoint, "--end 0.3", SINCE_START),
         (changed_without_checkpoints, "",
