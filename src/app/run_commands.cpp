@@ -1,4 +1,5 @@
 // thawslide run and resume.
+#include <csignal>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -52,7 +53,7 @@ int run_case(const RunOptions& options) {
   if (options.pair) {
     return run_python_command("pair", arguments_of_pair(options));
   }
-  survive_closed_pipes();
+  std::signal(SIGPIPE, SIG_IGN);  // the run continues without a reader of its lines
   use_threads(options.threads);
   Terminal terminal;
   const config::Case parameters = config::read_case(options.of_case.file, with_end(options.of_case.sets, options.end));
@@ -60,7 +61,7 @@ int run_case(const RunOptions& options) {
 }
 
 int resume_run(const ResumeOptions& options) {
-  survive_closed_pipes();
+  std::signal(SIGPIPE, SIG_IGN);  // the run continues without a reader of its lines
   use_threads(options.threads);
   Terminal terminal;
   return static_cast<int>(

@@ -45,15 +45,16 @@ void remember(int number) {
 Terminal::Terminal() : is_terminal_(isatty(STDOUT_FILENO) != 0), start_(wall_clock()), last_(start_) {}
 
 void Terminal::start(double time) {
-  catch_signals();
+  for (const int number : signals) {
+    answer(number, remember);
+  }
   begin_ = time;
   last_fraction_ = 0.0;
   start_ = last_ = wall_clock();
 }
 
 std::string Terminal::interruption() {
-  const int signal = caught_signal();
-  return signal == 0 ? std::string() : fmt::format("signal {}", signal);
+  return signal_number == 0 ? std::string() : fmt::format("signal {}", static_cast<int>(signal_number));
 }
 
 bool Terminal::wants_progress(double time, double end) {
@@ -106,18 +107,6 @@ void Terminal::end_progress() {
     is_drawn_ = false;
   }
 }
-
-void catch_signals() {
-  for (const int number : signals) {
-    answer(number, remember);
-  }
-}
-
-void survive_size_limits() { std::signal(SIGXFSZ, SIG_IGN); }
-
-void survive_closed_pipes() { std::signal(SIGPIPE, SIG_IGN); }
-
-int caught_signal() { return signal_number; }
 
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

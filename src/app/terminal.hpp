@@ -17,7 +17,8 @@ class Terminal final : public run::Observer {
  public:
   Terminal();
 
-  // From the first call on, signals interrupt the run.
+  // From the first call on, SIGINT, SIGTERM and SIGHUP interrupt the run; a second one ends the program immediately.
+  // Signals that are already ignored, as under nohup, remain ignored.
   void start(double time) override;
   void text(const std::string& line) override;
   void error(const std::string& line) override;
@@ -34,18 +35,6 @@ class Terminal final : public run::Observer {
   double begun_ = 0.0;   // start of that work, in CPU time [s]
   double start_, last_;  // wall-clock time [s]
 };
-
-// SIGINT, SIGTERM and SIGHUP only set a flag from now on; a second one of any of them ends the program immediately.
-// Signals that are already ignored, as under nohup, remain ignored.
-void catch_signals();
-
-// A file above its size limit, or a pipe without a reader, becomes an error of the writing call instead of ending the
-// program.
-void survive_size_limits();
-void survive_closed_pipes();
-
-// Signal received, 0 if none.
-int caught_signal();
 
 // Occupies standard streams that the parent process has closed, so that no later file takes their descriptors and
 // receives messages. Reading and writing such a stream fails as before.
