@@ -87,14 +87,14 @@ class LiveRunOf final : public LiveRun {
       add_row();
       throw;
     }
-    report(warnings_.after_step(*simulation_));
+    observer_.texts("", warnings_.after_step(*simulation_));
     const double time = simulation_->time(), dt = simulation_->last_step();
     const bool rests = simulation_->ends_at_rest();
     if (history_schedule_.reached(time, dt) || parameters().time.history_interval <= 0.0 || rests) {
       add_row();
     }
     if (snapshot_schedule_.reached(time, dt) || rests) {
-      report(warnings_.after_snapshot(*simulation_));
+      observer_.texts("", warnings_.after_snapshot(*simulation_));
     }
   }
 
@@ -270,11 +270,6 @@ class LiveRunOf final : public LiveRun {
 
   static bool is_public(const mpm::FieldBase& field) {
     return field.memory() != nullptr && (field.info().in_snapshot() || std::string("position") == field.info().name);
-  }
-  void report(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) {
-      observer_.text(warning);
-    }
   }
   // Positions of the nodes of a block, in the coordinates of the case [m]. On terrain, columns of nodes begin at the
   // height of the ground.

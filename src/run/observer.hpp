@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace thawslide::run {
 
@@ -33,6 +34,12 @@ class Observer {
   // Reason to stop after the present step, such as "signal 2"; empty: the run continues.
   virtual std::string interruption() { return ""; }
 
+  // Several lines with the same beginning.
+  void texts(const std::string& begin, const std::vector<std::string>& lines) {
+    for (const std::string& each : lines) {
+      text(begin + each);
+    }
+  }
   template <class... Values>
   void line(fmt::format_string<Values...> form, Values&&... values) {
     text(fmt::format(form, std::forward<Values>(values)...));

@@ -17,24 +17,6 @@ namespace thawslide::run {
 
 namespace {
 
-// Position and speed of the front for the progress line.
-class FrontWatch {
- public:
-  // front: distance travelled [m].
-  template <int Dim>
-  ProgressState state(const sim::Simulation<Dim>& simulation, double front, std::int64_t steps) {
-    const double elapsed = simulation.time() - time_;
-    const double speed =
-        elapsed > 0.0 ? sim::front_along_x(simulation).direction * (front - front_) / elapsed : std::nan("");
-    front_ = front;
-    time_ = simulation.time();
-    return {simulation.time(), simulation.parameters().time.end, steps, front, speed};
-  }
-
- private:
-  double front_ = std::nan(""), time_ = 0.0;
-};
-
 // Settles the body if the case requires it. If this fails, files are written as for any other failed run. Returns false
 // if it was interrupted.
 template <int Dim>
@@ -152,9 +134,7 @@ void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>
   if (simulation.removed().by_guards() > 0) {
     observer.line("guards have removed {}", sim::text_of(simulation.removed()));
   }
-  for (const std::string& warning : output.provenance().warnings) {
-    observer.line("warning: {}", warning);
-  }
+  observer.texts("warning: ", output.provenance().warnings);
   observer.line("results in {}", folder.string());
 }
 
@@ -193,7 +173,7 @@ class Loop {
         }
         write_due_output();
         if (observer_.wants_progress(simulation_.time(), times_.end)) {
-          observer_.progress(front_.state(simulation_, output_.front_position(simulation_), steps()));
+          report_progress();
         }
       }
     } catch (const RunError& error) {
@@ -222,7 +202,7 @@ class Loop {
     if (!simulation_.left_text().empty()) {
       return;
     }
-    report_line(warnings_.after_step(simulation_));
+    observer_.texts("", warnings_.after_step(simulation_));
     output_.after_step(simulation_);
   }
 
@@ -243,7 +223,7 @@ class Loop {
     }
     if (rests || snapshots_.reached(time, dt)) {
       output_.write_snapshot(simulation_);
-      report_line(warnings_.after_snapshot(simulation_));
+      observer_.texts("", warnings_.after_snapshot(simulation_));
     }
     const double wall_interval = simulation_.parameters().checkpoint.wall_interval;
     const bool is_old = wall_interval > 0.0 && output_.wall_seconds() - wall_of_checkpoint_ > wall_interval;
@@ -254,10 +234,13 @@ class Loop {
     }
   }
 
-  void report_line(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) {
-      observer_.text(warning);
-    }
+  void report_progress() {
+    const double time = simulation_.time(), front = output_.front_position(simulation_), elapsed = time - front_time_;
+    const double speed =
+        elapsed > 0.0 ? sim::front_along_x(simulation_).direction * (front - front_position_) / elapsed : std::nan("");
+    front_position_ = front;
+    front_time_ = time;
+    observer_.progress({time, times_.end, steps(), front, speed});
   }
 
   // Writes the last state of a run that ends early and cannot be continued.
@@ -303,7 +286,7 @@ class Loop {
   const config::Time& times_;
   std::int64_t first_step_;
   Schedule history_, snapshots_, checkpoints_;
-  FrontWatch front_;
+  double front_position_ = std::nan(""), front_time_ = 0.0;  // of the last progress line
   StepWarnings warnings_;
   int most_threads_;
   ThreadChoice threads_;

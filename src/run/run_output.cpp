@@ -18,30 +18,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Places that define the ground of a profile: the columns of nodes, and the two sides of the domain.
-template <int Dim>
-std::vector<double> stations_of(const sim::Model<Dim>& model, double cell) {
-  const double extent = model.constraints.extent[0];
-  std::vector<double> x;
-  for (long k = 0; k < std::lround(extent / cell); ++k) {
-    x.push_back(static_cast<double>(k) * cell);
-  }
-  x.push_back(extent);
-  return x;
-}
-
+// The ground of a profile at the columns of nodes, and at the two sides of the domain.
 template <int Dim>
 void write_terrain(const fs::path& folder, const sim::Simulation<Dim>& simulation) {
   const auto& model = simulation.model();
   if (!model.profile) {
     return;
   }
-  std::vector<double> x = stations_of(model, simulation.parameters().grid.cell), height;
-  for (double& station : x) {
+  const double extent = model.constraints.extent[0], cell = simulation.parameters().grid.cell;
+  const long columns = std::lround(extent / cell);
+  std::vector<double> x, height;
+  for (long k = 0; k <= columns; ++k) {
     typename terrain::Surface<Dim>::Point point = terrain::Surface<Dim>::Point::Zero();
-    point[0] = station;
+    point[0] = k < columns ? static_cast<double>(k) * cell : extent;
     height.push_back(model.ground->height(point) + model.origin[Dim - 1]);
-    station += model.origin[0];
+    x.push_back(point[0] + model.origin[0]);
   }
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
 }

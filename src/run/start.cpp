@@ -121,9 +121,7 @@ ExitCode restart_from_begin(const fs::path& folder, const Continuation& next, Ob
   sim::Simulation<Dim> simulation(next.parameters, read_map_files(next.parameters, warnings));
   use_device<Dim>(next.device, simulation);
   observer.line("{} was cut off before its first checkpoint; it starts again", folder.string());
-  for (const std::string& warning : next.earlier.parts.back().warnings) {
-    observer.line("warning: {}", warning);
-  }
+  observer.texts("warning: ", next.earlier.parts.back().warnings);
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   apply_changes(folder, next, observer);
   warnings.add(config::notices(next.parameters));
@@ -217,9 +215,7 @@ ExitCode continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpo
                                                              checkpoint.warning, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
-  for (const std::string& warning : output.provenance().parts.back().warnings) {
-    observer.line("warning: {}", warning);
-  }
+  observer.texts("warning: ", output.provenance().parts.back().warnings);
   observer.line("continuing from t = {:g} s{}", simulation.time(),
                 reached_before > simulation.time()
                     ? fmt::format("; it had reached {:g} s: rows and snapshots after {:g} s are written again",
