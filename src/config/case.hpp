@@ -305,7 +305,7 @@ struct Case {
       locations;  // locations of each given table and key by dotted name: "case.toml:12:7", "--set ..."
   std::set<std::string> not_given;   // those of `locations` that a resolved case contains as defaults
   std::vector<CaseFile> case_files;  // the case file and those it is based on, absolute
-  std::vector<std::string> notes;    // former names that the file uses
+  std::vector<std::string> notes;    // changes that reading made
   General general;
   Time time;
   Grid grid;

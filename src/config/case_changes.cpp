@@ -73,8 +73,7 @@ bool is_known(const std::string& key) {
       return true;
     }
     for (const Entry& entry : table->entries()) {
-      const std::string& former = entry.rule->formerly;
-      if (is_part(key, name + "." + entry.rule->key) || (!former.empty() && is_part(key, name + "." + former))) {
+      if (is_part(key, name + "." + entry.rule->key)) {
         return true;
       }
     }

@@ -13,7 +13,6 @@ struct Choice {
   Enum value;
   std::string keyword;
   std::string text;
-  std::string formerly = {};  // former name, still accepted with a note
 };
 
 // The argument only selects the enumeration.
@@ -119,16 +118,16 @@ inline std::vector<Choice<EndOfWater>> choices(EndOfWater) {
   return {{EndOfWater::sealed, "sealed", "no flow"}, {EndOfWater::vented, "vented", "connected to the air: P = 0"}};
 }
 inline std::vector<Choice<ThicknessChange>> choices(ThicknessChange) {
-  return {{ThicknessChange::as_published, "as_published",
-           "temperatures remain; the heat that a thicker band then contains, or a thinner one lacks, is band_rescale_J",
-           "as_printed"},
-          {ThicknessChange::conserving, "conserving",
-           "a thickening band gains material with the properties of t = 0 and mixes with it; a thinning band loses its "
-           "own; the heat exchanged is band_rescale_J"}};
+  return {
+      {ThicknessChange::as_published, "as_published",
+       "temperatures remain; the heat that a thicker band then contains, or a thinner one lacks, is band_rescale_J"},
+      {ThicknessChange::conserving, "conserving",
+       "a thickening band gains material with the properties of t = 0 and mixes with it; a thinning band loses its "
+       "own; the heat exchanged is band_rescale_J"}};
 }
 inline std::vector<Choice<AdvectionForm>> choices(AdvectionForm) {
   return {{AdvectionForm::as_published, "as_published",
-           "rho_L C_L q_L.grad T, as in Eq. 9; the heat that it creates is advection_J", "as_printed"},
+           "rho_L C_L q_L.grad T, as in Eq. 9; the heat that it creates is advection_J"},
           {AdvectionForm::conservative, "conservative",
            "-div(rho_L C_L q_L (T - Tref)), which conserves heat; drained water removes its heat"}};
 }
@@ -163,11 +162,11 @@ inline std::vector<Choice<HeatMasses>> choices(HeatMasses) {
 inline std::vector<Choice<ClapeyronSign>> choices(ClapeyronSign) {
   return {{ClapeyronSign::usual, "usual",
            "plus: P_L = P_I/r + rho_L L_f ln(T/Tref); the pressure decreases with temperature below Tref"},
-          {ClapeyronSign::published, "published", "minus, as in Eq. 4", "printed"}};
+          {ClapeyronSign::published, "published", "minus, as in Eq. 4"}};
 }
 inline std::vector<Choice<SeepageScaling>> choices(SeepageScaling) {
   return {{SeepageScaling::consistent, "consistent", "flow times xi, pore space divided by xi, as for heat in Eq. 19"},
-          {SeepageScaling::published, "published", "flow times xi, whole pore space, as in Eq. 23", "printed"}};
+          {SeepageScaling::published, "published", "flow times xi, whole pore space, as in Eq. 23"}};
 }
 inline std::vector<Choice<ThicknessDirection>> choices(ThicknessDirection) {
   return {{ThicknessDirection::normal, "normal", "along the terrain normal"},

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "base/portability.hpp"
-#include "config/changed_defaults.hpp"
 #include "config/declaration.hpp"
 #include "config/plausibility.hpp"
 #include "config/strips.hpp"
@@ -125,9 +124,6 @@ std::vector<std::string> unusual_numbers(const Case& parameters) {
 
 std::vector<std::string> notices(const Case& parameters) {
   std::vector<std::string> notices = parameters.notes;
-  if (const std::string warning = changed_defaults_warning(parameters); !warning.empty()) {
-    notices.push_back(warning);
-  }
   for (const auto& more : {unusual_numbers(parameters), implausible(parameters), warnings_of_gaps(parameters)}) {
     notices.insert(notices.end(), more.begin(), more.end());
   }

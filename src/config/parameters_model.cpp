@@ -19,7 +19,7 @@ void declare_mechanics(Tables& tables) {
        parameter(&Mechanics::transfer, "transfer", "transfer of velocities from the grid to the particles",
                  {.source = "Lei et al., Eq. 13"}),
        parameter(&Mechanics::pic_fraction, "pic_fraction", "", between(0, 1),
-                 "fraction of PIC in the particle velocities; 0: FLIP, 1: PIC", {.formerly = "pic_share"})
+                 "fraction of PIC in the particle velocities; 0: FLIP, 1: PIC")
            .required_if("when mechanics.transfer is \"blend\"",
                         [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::blend; }),
        parameter(&Mechanics::fmpm_order, "fmpm_order", "", between(2, 4),

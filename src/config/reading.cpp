@@ -129,13 +129,6 @@ bool ValueReader::fail(const toml::node& node, const std::string& message) const
   return false;
 }
 
-bool ValueReader::note_new_name(const toml::node& node, const std::string& name) const {
-  reading.notes.push_back(fmt::format("note: {}: {} is \"{}\", whose name is now \"{}\"",
-                                      reading.location_of(key, node.source()).text(), key, node.as_string()->get(),
-                                      name));
-  return true;
-}
-
 bool ValueReader::fail_type(const toml::node& node) const {
   std::string message = fmt::format("is {}; allowed: {}", describe_node(node), allowed);
   if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {

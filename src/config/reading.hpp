@@ -25,7 +25,7 @@ struct Reading {
   std::vector<Override> overrides;
   int dimension = 2;  // of the case; 0 while unknown
   Problems problems;
-  std::vector<std::string> notes;             // former names that the file uses
+  std::vector<std::string> notes;             // changes that reading made
   std::map<std::string, Location> locations;  // of each given table and key, by dotted name
   std::set<std::string> invalid_keys;         // dotted keys that are missing or invalid
 
@@ -64,8 +64,6 @@ struct ValueReader {
 
   // Adds "key: message" at the node's location.
   bool fail(const toml::node& node, const std::string& message) const;
-  // Adds a note that the node's keyword has a new name; always true.
-  bool note_new_name(const toml::node& node, const std::string& name) const;
   // Reports the value found, the values allowed and the remedy.
   bool fail_type(const toml::node& node) const;
   // A finite number.

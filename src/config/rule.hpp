@@ -43,7 +43,6 @@ struct Usual {
 struct Keyword {
   std::string name;
   std::string text;
-  std::string formerly = {};  // former name, still accepted with a note
 };
 
 struct Rule {
@@ -57,7 +56,6 @@ struct Rule {
   bool is_path = false;                // a file, relative to the case file
   bool horizontal = false;             // of a point: x and y only, in three dimensions too
   Usual usual = {};
-  std::string formerly = {};  // former name of the key, still accepted with a note
 };
 
 // Shortest decimal text that reads back to the same number, in TOML form: always with a point or an exponent.

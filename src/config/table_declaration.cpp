@@ -34,18 +34,6 @@ std::vector<std::string> tables_with(const std::string& key, const std::string& 
   return result;
 }
 
-// Keys of earlier versions that were removed, with the reason.
-std::string reason_of_removal(const std::string& key) {
-  static const std::map<std::string, std::string> reasons{
-      {"grid.follows_terrain", "cells always follow the terrain"},
-      {"terrain.representation", "the ground is always a line or surface"},
-      {"terrain.layers", "the ground is always a line or surface"},
-      {"band.cut_cells", "the ground no longer cuts cells"},
-  };
-  const auto found = reasons.find(key);
-  return found == reasons.end() ? "" : fmt::format("; it was removed, because {}", found->second);
-}
-
 bool is_plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
@@ -88,14 +76,8 @@ bool enter_table(const toml::node& node, const std::string& dotted, Reading& rea
   return true;
 }
 
-void note_new_key(const std::string& former, const std::string& key, const toml::source_region& source,
-                  Reading& reading) {
-  reading.notes.push_back(
-      fmt::format("note: {}: key '{}' is called '{}' now", reading.location_of(former, source).text(), former, key));
-}
-
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
-                         const std::map<std::string, std::string>& renamed, Reading& reading) {
+                         Reading& reading) {
   std::vector<std::string> allowed = known;
   const std::vector<std::string> inside = tables_inside(dotted);
   allowed.insert(allowed.end(), inside.begin(), inside.end());
@@ -106,12 +88,8 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
     }
     const std::string whole = join(dotted, word);
     const std::vector<std::string> elsewhere = tables_with(word, dotted);
-    const auto now = renamed.find(word);
-    const std::string removed = reason_of_removal(whole);
-    const std::string hint = !removed.empty()       ? removed
-                             : now != renamed.end() ? fmt::format("; it is called '{}' now", join(dotted, now->second))
-                             : elsewhere.empty()    ? did_you_mean(word, allowed)
-                                                    : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
+    const std::string hint = elsewhere.empty() ? did_you_mean(word, allowed)
+                                               : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
     reading.problems.add(reading.location_of(whole, key.source()),
                          fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
                                      hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), comma_list(allowed)));

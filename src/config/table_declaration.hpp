@@ -21,12 +21,9 @@ inline std::string join(const std::string& table, const std::string& key) { retu
 const toml::node* find_node(const toml::table& root, const std::string& dotted);
 // Records the location of a table; returns whether it is one.
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading);
-// Notes that a key is given by its former name.
-void note_new_key(const std::string& former, const std::string& key, const toml::source_region& source,
-                  Reading& reading);
-// Reports unknown keys of a table; `renamed`: keys by their former names.
+// Reports unknown keys of a table.
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
-                         const std::map<std::string, std::string>& renamed, Reading& reading);
+                         Reading& reading);
 // Reports other entries next to the named tables of [body]; returns the names.
 std::vector<std::string> table_names(const toml::node& node, const std::string& kind, Reading& reading);
 void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
@@ -289,19 +286,10 @@ class BoundTable : public TableDeclaration {
 
   void read_section(const toml::table& table, const std::string& dotted, Section& section, Reading& reading) const {
     std::vector<std::string> known;
-    std::map<std::string, std::string> renamed;
     for (const auto& p : parameters_) {
       known.push_back(p.rule.key);
-      if (!p.rule.formerly.empty()) {
-        renamed[p.rule.formerly] = p.rule.key;
-      }
       const std::string key = join(dotted, p.rule.key);
       const toml::node* node = table.get(p.rule.key);
-      if (node == nullptr && !p.rule.formerly.empty() && table.contains(p.rule.formerly)) {
-        node = table.get(p.rule.formerly);
-        known.push_back(p.rule.formerly);
-        note_new_key(join(dotted, p.rule.formerly), key, node->source(), reading);
-      }
       if (node == nullptr) {
         continue;
       }
@@ -310,7 +298,7 @@ class BoundTable : public TableDeclaration {
         p.read(*node, ValueReader{reading, key, p.rule, p.default_text(), p.type}, section);
       }
     }
-    report_unknown_keys(table, dotted, known, renamed, reading);
+    report_unknown_keys(table, dotted, known, reading);
   }
 
   void complete_section(const std::string& dotted, const Case& whole, Section& section, Reading& reading) const {

@@ -90,10 +90,6 @@ bool read_keyword(const toml::node& node, const ValueReader& at, const std::vect
   std::vector<std::string> names;
   for (const Keyword& keyword : keywords) {
     names.push_back(keyword.name);
-    if (!keyword.formerly.empty() && text->get() == keyword.formerly) {
-      found = keyword.name;
-      return at.note_new_name(node, found);
-    }
   }
   if (std::find(names.begin(), names.end(), text->get()) == names.end()) {
     const std::string hint = did_you_mean(text->get(), names);

@@ -79,7 +79,7 @@ struct Value<Enum> {
   static std::vector<Keyword> keywords() {
     std::vector<Keyword> keywords;
     for (const Choice<Enum>& choice : choices(Enum{})) {
-      keywords.push_back({choice.keyword, choice.text, choice.formerly});
+      keywords.push_back({choice.keyword, choice.text});
     }
     return keywords;
   }

@@ -19,21 +19,6 @@ def test_mistakes_have_their_message(thawslide: Program, small_case: Path, mista
     assert message == mistake.message(small_case) and not run.exists()
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "reason"),
-    [
-        ("grid.follows_terrain", "false", "cells always follow the terrain"),
-        ("terrain.representation", '"rigid_points"', "the ground is always a line or surface"),
-        ("terrain.layers", "3", "the ground is always a line or surface"),
-        ("band.cut_cells", '"equal_thickness"', "the ground no longer cuts cells"),
-    ],
-)
-def test_a_removed_key_has_its_reason(thawslide: Program, small_case: Path, key: str, value: str, reason: str) -> None:
-    table = key.split(".", maxsplit=1)[0]
-    message = f"key '{key}' is not known in [{table}]; it was removed, because {reason}. Allowed here: "
-    assert message in thawslide.error("check", small_case, "--set", f"{key}={value}")
-
-
 @pytest.fixture(scope="module")
 def tables(thawslide: Program) -> Tables:
     described: Tables = thawslide.json("describe")
