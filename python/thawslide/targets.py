@@ -1,7 +1,6 @@
 """Reported values for comparison with a run: quantities, units, and their CSV file.
 
-Columns: quantity, time_s (or time_min, time_h), value, unit, and optionally source and kind. Messages are those of the
-simulator (src/config/reported_values.cpp).
+Columns: quantity, time_s (or time_min, time_h), value, unit, and optionally source and kind.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Text files: encodings, line ends, sizes, and tables of comma-separated cells with line numbers.
-
-Messages on tables and numbers are those of the simulator (src/config/table_csv.cpp).
-"""
+"""Text files: encodings, line ends, sizes, and tables of comma-separated cells with line numbers."""
 
 from __future__ import annotations
 

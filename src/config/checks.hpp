@@ -36,7 +36,7 @@ void check_maps(const Case& checked, Reading& reading);
 // Checks the width of a section; must follow the other checks.
 void check_width(const Case& checked, Reading& reading);
 
-// Checks names of input files, and reported values.
+// Checks names of input files.
 void check_files(const Case& checked, Reading& reading);
 
 }  // namespace thawslide::config

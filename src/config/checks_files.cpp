@@ -1,11 +1,9 @@
-// Checks of other input files: unique names for the copies in a run folder, reported values, force record.
+// Checks of other input files: unique names for the copies in a run folder. Python reads reported values and force
+// records.
 #include <fmt/format.h>
 
-#include "base/error.hpp"
 #include "config/checks.hpp"
-#include "config/force_record.hpp"
 #include "config/named_files.hpp"
-#include "config/reported_values.hpp"
 
 namespace thawslide::config {
 
@@ -30,41 +28,19 @@ void check_file_names(const Case& checked, Reading& reading) {
   }
 }
 
-void check_targets(const Case& checked, Reading& reading) {
-  const std::string& file = checked.report.targets;
-  if (file.empty() || !reading.are_valid({"report.targets"})) {
-    return;
-  }
-  for (const std::string& mistake : read_reported_values(file).mistakes) {
-    reading.report("report.targets", "report.targets: " + mistake);
-  }
-}
-
-void check_force_record(const Case& checked, Reading& reading) {
+void check_force_periods(const Case& checked, Reading& reading) {
   const Report& report = checked.report;
-  if (report.force_record.empty()) {
-    return;
-  }
-  if (reading.are_valid({"report.force_record"})) {
-    if (const std::string mistake = mistake_in_force_record(report.force_record); !mistake.empty()) {
-      reading.report("report.force_record", "report.force_record: " + mistake);
-    }
-  }
-  if (reading.are_valid({"report.force_periods"}) && report.force_periods.size() != 2) {
-    reading.report(
-        "report.force_periods",
-        fmt::format("report.force_periods is an array of {} numbers; allowed: 2 numbers, the shortest and the "
-                    "longest period of the waves.",
-                    report.force_periods.size()));
-  }
+  reading.refuse_if(!report.force_record.empty() && report.force_periods.size() != 2, {"report.force_periods"},
+                    "report.force_periods is an array of {} numbers; allowed: 2 numbers, the shortest and the longest "
+                    "period of the waves.",
+                    report.force_periods.size());
 }
 
 }  // namespace
 
 void check_files(const Case& checked, Reading& reading) {
   check_file_names(checked, reading);
-  check_targets(checked, reading);
-  check_force_record(checked, reading);
+  check_force_periods(checked, reading);
 }
 
 }  // namespace thawslide::config

@@ -1,6 +1,10 @@
 #include "config/input_limits.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
@@ -16,6 +20,25 @@ void require_size(const fs::path& file, double max_bytes, const std::string& adv
     throw UserError(fmt::format("{}: the file has {} MB; allowed: {} MB. {}", file.string(),
                                 rounded_text(bytes / 1e6, 4), count_text(max_bytes / 1e6), advice));
   }
+}
+
+std::string read_text_file(const fs::path& file) {
+  const auto fail = [&file](const std::string& reason) {
+    throw UserError(
+        fmt::format("{}: cannot be read: {}. Check that the file is whole and may be read.", file.string(), reason));
+  };
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  try {
+    text.assign(std::istreambuf_iterator<char>(stream), {});
+  } catch (const std::ios_base::failure& error) {  // the stream iterator passes on read errors of the file
+    fail(error.code().message());
+  }
+  if (!stream) {
+    fail(errno != 0 ? std::strerror(errno) : "it cannot be opened");
+  }
+  return text;
 }
 
 std::string printable(std::string text, std::string_view kept) {

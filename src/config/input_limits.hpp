@@ -1,5 +1,5 @@
-// Limits of input sizes: far above the needs of slides, and below what erroneous or malicious files could contain.
-// Larger inputs are refused before or during reading.
+// Reading of text files, and limits of input sizes: far above the needs of slides, and below what erroneous or
+// malicious files could contain. Larger inputs are refused before or during reading.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,10 @@
 
 namespace thawslide::config {
 
-inline constexpr double largest_case_file = 10e6;    // bytes
-inline constexpr std::size_t most_case_files = 16;   // in a chain of case.based_on
-inline constexpr std::size_t most_key_parts = 50;    // of a dotted key: deeper tables overflow the stack
-inline constexpr double largest_table_file = 100e6;  // bytes, for a profile
-inline constexpr double largest_targets_file = 1e6;  // bytes, for reported values
-inline constexpr std::size_t most_profile_rows = 1000000;
+inline constexpr double largest_case_file = 10e6;        // bytes
+inline constexpr std::size_t most_case_files = 16;       // in a chain of case.based_on
+inline constexpr std::size_t most_key_parts = 50;        // of a dotted key: deeper tables overflow the stack
+inline constexpr double largest_table_file = 100e6;      // bytes, for a profile
 inline constexpr double most_raster_points = 4e8;        // read from one raster: 20 km x 20 km at 1 m
 inline constexpr std::size_t most_features = 100000;     // of a vector file
 inline constexpr std::size_t most_corners = 5000000;     // of all its polygons or lines
@@ -23,6 +21,9 @@ inline constexpr std::size_t most_letters_quoted = 200;  // of an invalid text
 
 // Throws UserError if a file has more bytes; `advice` ends the message: "Is it the right file?"
 void require_size(const std::filesystem::path& file, double max_bytes, const std::string& advice);
+
+// Text of a file as a whole. Throws UserError with the file, and the system's reason if available.
+[[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
 // Replaces by '?' whatever would control a terminal: control characters other than those in `kept`, and marks that
 // change the text direction.

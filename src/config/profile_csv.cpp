@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -12,7 +14,6 @@
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
-#include "config/table_csv.hpp"
 
 namespace thawslide::config {
 
@@ -113,9 +114,6 @@ class ProfileReader {
       fail(fmt::format("distance_m is {} after {}; allowed: steps of {:g} m and more. Leave one of the two points out",
                        distance, table_.distance.back(), least_profile_step));
     }
-    if (table_.distance.size() == most_profile_rows) {
-      fail(fmt::format("the profile has more than {} rows; allowed: as many. Leave points out", most_profile_rows));
-    }
     table_.distance.push_back(distance);
     table_.terrain.push_back(terrain);
     if (columns_ == 3) {
@@ -131,8 +129,11 @@ class ProfileReader {
   }
 
   double number(const std::string& field, std::size_t column) const {
+    const char* begin = field.data() + (field.rfind('+', 0) == 0 ? 1 : 0);
+    const char* end = field.data() + field.size();
     double value = 0.0;
-    if (!read_finite_number(field, value).empty()) {
+    const auto result = std::from_chars(begin, end, value);
+    if (result.ptr != end || result.ec != std::errc() || !std::isfinite(value)) {
       fail(fmt::format("{} is '{}'; allowed: a finite number with a decimal point", all_columns[column], shown(field)));
     }
     return value;

@@ -12,7 +12,6 @@
 #include "config/declaration.hpp"
 #include "config/input_limits.hpp"
 #include "config/reading.hpp"
-#include "config/text_file.hpp"
 
 namespace thawslide::config {
 

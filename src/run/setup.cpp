@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "config/notices.hpp"
-#include "config/reported_values.hpp"
 #include "sim/checks/bodies_apart.hpp"
 #include "sim/checks/body_warnings.hpp"
 #include "sim/checks/unresolved_terrain.hpp"
@@ -26,7 +25,6 @@ void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vecto
   const config::Case& parameters = simulation.parameters();
   warnings.add(sim::warning_of_map_cell(parameters, simulation.site()));
   warnings.add(config::notices(parameters));
-  warnings.add(config::warning_of_late_values(parameters));
   warnings.add(sim::note_of_bottom(parameters, simulation.site()));
   warnings.add(sim::body_warnings(parameters, bodies));
   warnings.add(sim::warning_of_bodies_apart(simulation));

@@ -1,8 +1,7 @@
-// Files that a case names: terrain profiles, reported values, allowed locations and names.
+// Files that a case names: terrain profiles, allowed locations and names.
 
 #include "case_messages.hpp"
 #include "config/profile_csv.hpp"
-#include "config/reported_values.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -75,46 +74,10 @@ TEST(Profile, MissingFile) {
             "/nowhere/profile.csv: the profile cannot be read. Check that the file is there and may be read.");
 }
 
-const Change targets{"[basal]", "[report]\ntargets = \"targets.csv\"\n[basal]"};
-const std::string columns = "quantity,time_s,value,unit,source\n";
-
 TEST(InputFiles, ThatAreFoldersAreRefused) {
   std::filesystem::create_directories(folder_of_this_test() / "data.csv");
   EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"data.csv\""}}),
             "FOLDER/case.toml:10:8: terrain.file is \"data.csv\", a folder; allowed: a file.");
-}
-
-TEST(ReportedValues, AfterTheEndCauseAWarning) {
-  const std::string rows = "mean_velocity,1,8,m/s,x\nmean_velocity,75,8,m/s,x\ndeposit_volume,900,1,m3,x\n";
-  write_next_to_the_case("targets.csv", columns + rows + "mean_displacement,80,8,m,x\n");
-  const std::string warning = warning_of_late_values(testing_support::case_from_text(changed({targets})));
-  EXPECT_NE(
-      warning.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
-                   "ends at 2 s: mean_velocity of 75 s in line 3. The run is not compared with them."),
-      std::string::npos)
-      << warning;
-  write_next_to_the_case("targets.csv", columns + "start_velocity,40,8,m/s,x\n" + rows);
-  EXPECT_EQ(warning_of_late_values(testing_support::case_from_text(changed({targets}))), "")
-      << "with a separate start time";
-}
-
-TEST(ReportedValues, AreTextInUtf8) {
-  const auto error_of_file = [](const std::string& bytes) {
-    write_next_to_the_case("targets.csv", bytes);
-    const std::string found = error_of_changed({targets}), location = "FOLDER/case.toml:21:11: report.targets: FOLDER/";
-    return found.compare(0, location.size(), location) == 0 ? found.substr(location.size()) : found;
-  };
-  const std::string row = "mean_displacement,1,0.6,km,M\xC3\xBCller\n";
-  EXPECT_EQ(error_of_file("\xEF\xBB\xBF" + columns + row), "no error");
-  EXPECT_EQ(error_of_file("quantity,time_s,value,unit,source\r" + row + "\r\n\r\n"), "no error");
-  EXPECT_EQ(error_of_file(columns + "mean_velocity,1,8,m/s,M\xFCller\n"),
-            "targets.csv:2: byte 0xfc is not UTF-8; save the file as UTF-8");
-  EXPECT_EQ(error_of_file("\xFF\xFEq"), "targets.csv: encoded as UTF-16; save it as UTF-8");
-  EXPECT_EQ(error_of_file(columns + std::string("a\0b\n", 4)),
-            "targets.csv:2: a zero byte; this is not a text file, or it is damaged");
-  EXPECT_EQ(error_of_file(""), "targets.csv: empty; expected the columns quantity, value, unit");
-  EXPECT_EQ(error_of_file(std::string(1100000, '#')),
-            "targets.csv: the file has 1.1 MB; allowed: 1 MB. Is it the right file?");
 }
 
 TEST(Paths, DoNotLeaveTheFolderOfTheCase) {

@@ -1,6 +1,4 @@
 // Text files, readable and unreadable, and texts of users in messages.
-#include "config/text_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include "case_messages.hpp"
