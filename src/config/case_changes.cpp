@@ -114,6 +114,17 @@ void gather(const toml::table& table, const std::string& prefix, std::map<std::s
 
 }  // namespace
 
+std::vector<std::string> coarse_changes(const Case& parameters) {
+  std::vector<std::string> changes{fmt::format("grid.cell={}", trial_factor * parameters.grid.cell)};
+  if (was_given(parameters, "time.step")) {  // otherwise adaptive steps have no upper limit
+    changes.push_back(fmt::format("time.step={}", trial_factor * parameters.time.step));
+  }
+  if (parameters.maps.cell > 0.0) {
+    changes.push_back(fmt::format("maps.cell={}", trial_factor * parameters.maps.cell));
+  }
+  return changes;
+}
+
 std::vector<std::string> differences(const std::string& now, const std::string& before,
                                      const std::set<std::string>& apart_from) {
   std::map<std::string, std::string> present, past;

@@ -1,11 +1,20 @@
-// Permitted changes to the case of a resumed run, and differences between two resolved cases.
+// Changes of a case: those that make it a trial, those permitted on resume, and differences between two resolved cases.
 #pragma once
 
 #include <set>
 #include <string>
 #include <vector>
 
+#include "config/case.hpp"
+
 namespace thawslide::config {
+
+// Factor of cells, steps and map cells of a trial.
+inline constexpr double trial_factor = 2.0;
+
+// Changes that make a case a trial, as `--set` texts: cells of twice the size, with the steps and maps that belong to
+// them.
+[[nodiscard]] std::vector<std::string> coarse_changes(const Case& parameters);
 
 // Differences of the resolved case `now` from `before`, both TOML texts: "time.end is 20.0, was 10.0", one entry per
 // key, in the order of keys. The title and [report] do not count, because they do not affect a run. A text that is not

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/rounding.hpp"
-#include "config/fitting_cell.hpp"
 #include "config/resolution.hpp"
 #include "config/rule.hpp"
 #include "config/site.hpp"

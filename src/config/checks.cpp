@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "config/fitting_cell.hpp"
 
 namespace thawslide::config {
 
 namespace {
 
 constexpr double most_intervals = 1e9;  // within the run: more are unintended and cannot be written
+constexpr double fewest_cells = 2.0;    // of the domain along each axis
 constexpr double most_cells = 5e5;      // limit of the tile numbers in the sparse grid
 
 void check_grid(const Case& checked, Reading& reading) {
@@ -40,20 +39,6 @@ void check_grid(const Case& checked, Reading& reading) {
                       "grid.cell is {} m, and the domain is {} m long along {}; allowed: at least {} cells along each "
                       "axis. Make the cell smaller or the domain larger.",
                       grid.cell, length, axis_names[a], fewest_cells);
-    if (!reading.are_valid({"grid.cell", "grid.max"})) {
-      return;
-    }
-    const bool begins_at_terrain = a + 1 == static_cast<std::size_t>(checked.general.dimension) && has_terrain(checked);
-    if (!begins_at_terrain && std::abs(cells - std::round(cells)) > 1e-6 * cells) {
-      // A cell that fits this axis alone would be refused for another one.
-      const double fitting = fitting_cell_near(grid.cell, lengths_of_domain(checked));
-      reading.report_misfit({"grid.max", "grid.cell", "grid.min"},
-                            fmt::format("the domain is {} m long along {}, which is {:.6g} cells of {} m; allowed: a "
-                                        "whole number. {} grid.max along {} to {:.9g}.",
-                                        length, axis_names[a], cells, grid.cell,
-                                        fitting > 0.0 ? fmt::format("Make grid.cell {:.9g}, or move", fitting) : "Move",
-                                        axis_names[a], grid.min[a] + std::round(cells) * grid.cell));
-    }
   }
 }
 

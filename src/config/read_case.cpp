@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/error.hpp"
@@ -11,7 +12,6 @@
 #include "config/input_limits.hpp"
 #include "config/overrides.hpp"
 #include "config/variants.hpp"
-#include "config/whole_cells.hpp"
 
 namespace thawslide::config {
 
@@ -106,6 +106,33 @@ void read_tables(const toml::table& root, Case& result, Reading& reading) {
   report_unknown_tables(root, reading);
   for (const auto& table : tables()) {
     table->complete(result, reading);
+  }
+}
+
+// Moves grid.max to whole cells. The domain grows, except where the ground is known only inside it: horizontally on a
+// DEM, and on a profile that does not continue. On both, cells begin at the terrain, and any height of the domain fits.
+void fit_domain_to_cells(Case& parameters, Reading& reading) {
+  Grid& grid = parameters.grid;
+  const auto dimension = static_cast<std::size_t>(reading.dimension);
+  if (!reading.are_valid({"grid.cell", "grid.min", "grid.max", "terrain.type", "terrain.extend"})) {
+    return;
+  }
+  const bool is_bounded = has_terrain(parameters) && !parameters.terrain.extend;
+  Point corner = grid.max;
+  for (std::size_t a = 0; a < dimension - (has_terrain(parameters) ? 1 : 0); ++a) {
+    const double cells = (grid.max[a] - grid.min[a]) / grid.cell;
+    if (cells >= 1.0 && std::abs(cells - std::round(cells)) > 1e-6 * cells) {
+      corner[a] = grid.min[a] + grid.cell * (is_bounded ? std::floor(cells) : std::ceil(cells));
+    }
+  }
+  if (corner != grid.max) {
+    const auto text = [&](const Point& point) {
+      return Value<Point>::write(point, {}, {.dimension = reading.dimension, .input_folder = {}});
+    };
+    reading.notes.push_back(fmt::format("note: {}: grid.max is {} for whole cells of {} m, in place of {}",
+                                        reading.location_of("grid.cell").text(), text(corner), plain_number(grid.cell),
+                                        text(grid.max)));
+    grid.max = corner;
   }
 }
 

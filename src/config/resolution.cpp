@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "base/rounding.hpp"
-#include "config/fitting_cell.hpp"
 
 namespace thawslide::config {
 
@@ -20,6 +20,17 @@ std::string format_found(double found) { return fmt::format("{:.2g}", rounded_do
 
 }  // namespace
 
+double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
+
+double round_down(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  double best = tidy(power);
+  for (const double digit : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    best = digit * power <= x * (1.0 + 1e-12) ? tidy(digit * power) : best;
+  }
+  return best;
+}
+
 bool requests_maps(const Case& parameters) {
   return parameters.general.dimension == 3 &&
          (was_given(parameters, "maps.cell") || was_given(parameters, "maps.arrival_thickness"));
@@ -27,16 +38,16 @@ bool requests_maps(const Case& parameters) {
 
 double run_time_factor(double cell, double finer, int dimension) { return std::pow(cell / finer, dimension + 1); }
 
-std::string resolution_warning(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
+std::string resolution_warning(const BodyOnCells& body, const std::string& key) {
   const double cells = body.thickness / body.cell, particles = cells * body.particles_per_axis;
   const bool lacks_particles = !are_enough(particles, fewest_particles);
   const bool lacks_cells = body.has_maps && !are_enough(cells, cells_for_maps);
   if (!lacks_particles && !lacks_cells) {
     return "";
   }
-  const auto cell_for = [&](double needed) { return fitting_cell(body.thickness / needed, body.cell, lengths); };
   const auto times = [&](double finer) { return rounded_text(run_time_factor(body.cell, finer, body.dimension)); };
-  const double moving = cell_for(fewest_particles / body.particles_per_axis), mapped = cell_for(cells_for_maps);
+  const double moving = round_down(body.thickness * body.particles_per_axis / fewest_particles);
+  const double mapped = round_down(body.thickness / cells_for_maps);
   std::string problem, remedy;
   if (lacks_particles) {
     problem = fmt::format("too few particles to resolve shear and thinning (found {}; needed {:g})",
@@ -58,7 +69,7 @@ std::string maps_comment(const BodyOnCells& body) {
   if (are_enough(body.thickness / body.cell, cells_for_maps)) {
     return "";
   }
-  const double finer = fitting_cell(body.thickness / cells_for_maps, body.cell, {});
+  const double finer = round_down(body.thickness / cells_for_maps);
   return fmt::format(
       "# Travel distance and speed need 2 cells across the thickness of the release. Maps of thickness and area need\n"
       "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",

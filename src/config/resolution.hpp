@@ -4,11 +4,16 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "config/case.hpp"
 
 namespace thawslide::config {
+
+// Removes the round-off of a product from a number for a file or a message.
+[[nodiscard]] double tidy(double number);
+
+// Largest number of one or two digits (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is at most x.
+[[nodiscard]] double round_down(double x);
 
 inline constexpr double fewest_particles = 4.0;  // across the thickness, for shear and thinning
 
@@ -35,10 +40,8 @@ struct BodyOnCells {
 [[nodiscard]] double run_time_factor(double cell, double finer, int dimension);
 
 // Warning about a body with too few particles across its median thickness, or with too few cells for maps; empty if
-// there are enough. It starts with `key`, which sets the cell. The proposed cells divide each of the `lengths` of the
-// domain [m] into a whole number; without lengths any cell fits, because the domain is derived from it.
-[[nodiscard]] std::string resolution_warning(const BodyOnCells& body, const std::string& key,
-                                             const std::vector<double>& lengths = {});
+// there are enough. It starts with `key`, which sets the cell. Any cell fits the domain, which moves to whole cells.
+[[nodiscard]] std::string resolution_warning(const BodyOnCells& body, const std::string& key);
 
 // Comment for a case file: the cell for maps of a body, and its cost. Empty if the present cell is small enough.
 [[nodiscard]] std::string maps_comment(const BodyOnCells& body);

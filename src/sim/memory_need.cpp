@@ -7,7 +7,6 @@
 #include "band/basal_segment.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
-#include "config/fitting_cell.hpp"
 #include "sim/maps/flow_maps.hpp"
 #include "sim/maps/map_grid.hpp"
 #include "sim/setup/body_shape.hpp"
@@ -174,14 +173,13 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   const double cell = parameters.grid.cell;
   const MemoryNeed need = memory_need<Dim>(parameters, site, bodies);
   const double smallest = smallest_cell<Dim>(need, cell, available.bytes);
-  const std::vector<double> lengths = config::lengths_of_domain(parameters);
   if (bodies.particles > mpm::most_particles) {
     const double countable = 1.05 * cell * std::pow(bodies.particles / mpm::most_particles, 1.0 / Dim);
-    throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {} particles; allowed: {}. Make grid.cell {:.9g} m or more, or "
-        "particles_per_axis smaller.",
-        config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles),
-        rounded_text(mpm::most_particles), config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
+    throw UserError(
+        fmt::format("{}: grid.cell is {} m, which makes {} particles; allowed: {}. Make grid.cell {:.9g} m or more, or "
+                    "particles_per_axis smaller.",
+                    config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles),
+                    rounded_text(mpm::most_particles), rounded_up(std::max(smallest, countable), 2)));
   }
   if (need.total() <= available.bytes) {
     return parameters;
@@ -196,7 +194,7 @@ const config::Case& require_memory(const config::Case& parameters, const config:
       "{}: grid.cell is {} m, which makes {} particles{}: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
       "smaller.",
       config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), text_of_splitting(parameters),
-      amounts, config::fitting_cell_from(smallest, cell, lengths)));
+      amounts, smallest));
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                      \

@@ -84,11 +84,6 @@ three numbers in 2D
   min = [0.0, -2.0] -> min = [0.0, 0.0, -2.0]
     12:7: grid.min is an array of 3 numbers; allowed: 2 numbers, as case.dimension is 2.
 
-a domain of no whole number of cells
-  max = [20.0, 10.0] -> max = [20.5, 10.0]
-    13:7: the domain is 20.5 m long along x, which is 20.5 cells of 1 m; allowed: a whole number. Move grid.max along x
-    to 21.
-
 a body outside the domain
   max = [14.0, 3.0] -> max = [24.0, 3.0]
     30:7: body.block reaches from (10, 0) to (24, 3), outside the domain, which is (0, -2) to (20, 10); move the body,

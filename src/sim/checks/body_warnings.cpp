@@ -8,7 +8,6 @@
 #include "base/linear.hpp"
 #include "base/rounding.hpp"
 #include "config/basal_laws.hpp"
-#include "config/fitting_cell.hpp"
 #include "config/plausibility.hpp"
 #include "config/resolution.hpp"
 #include "physics/softening.hpp"
@@ -194,7 +193,7 @@ std::string resolution_warning(const config::Case& parameters, const BodyFigures
                                      .particles_per_axis = parameters.bodies.at(body.name).particles_per_axis,
                                      .dimension = parameters.general.dimension,
                                      .has_maps = config::requests_maps(parameters)};
-  const std::string warning = config::resolution_warning(on_cells, "grid.cell", config::lengths_of_domain(parameters));
+  const std::string warning = config::resolution_warning(on_cells, "grid.cell");
   return warning.empty() ? "" : config::location_of(parameters, "grid.cell") + ": " + warning;
 }
 

@@ -102,7 +102,7 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
   // 2500 cells per square metre: 400 m2 with 4 particles in each, 50 m2 with 16.
   EXPECT_EQ(refusal_of(parameters, {4e9, "are free"}),
             "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6,000,000 particles: the run needs about 8.6 GB of "
-            "memory (particles 3.8 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
+            "memory (particles 3.8 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.03 m or more, or "
             "particles_per_axis smaller.");
   EXPECT_EQ(refusal_of(parameters, {8.7e9, "are free"}), "no error");
   EXPECT_EQ(refusal_of(case_from_text(two_bodies), {60.9e6, "are free"}), "no error");
@@ -126,7 +126,7 @@ TEST(MemoryNeed, MoreParticlesThanCanBeCountedAreRefused) {
   EXPECT_EQ(refusal_of(parameters, {1e15, "are free"}),
             "--set grid.cell=0.002: grid.cell is 0.002 m, which makes 600,000,000 particles; allowed: 230,000,000. "
             "Make grid.cell "
-            "0.004 m or more, or particles_per_axis smaller.");
+            "0.0034 m or more, or particles_per_axis smaller.");
 }
 
 }  // namespace
