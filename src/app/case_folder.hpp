@@ -9,7 +9,6 @@
 #include "config/case.hpp"
 #include "config/case_proposal.hpp"
 #include "config/site.hpp"
-#include "config/taper_proposal.hpp"
 
 namespace thawslide::app {
 

@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
+#include "config/case_proposal.hpp"
 #include "config/input_limits.hpp"
-#include "config/section_proposal.hpp"
 #include "io/history_writer.hpp"
 #include "sim/block/section.hpp"
 

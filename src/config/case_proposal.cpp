@@ -23,7 +23,6 @@ namespace {
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed reaches the far side
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
-constexpr double rest_speed = 0.05;                         // m/s: default of `run` for a case without the key
 constexpr double block_cells = 4.0;  // the domain is a multiple of this, so the cell can be doubled twice
 constexpr double snapshots = 40.0;   // approximate number
 
@@ -149,6 +148,20 @@ Stretch domain_along(const Stretch& given, const Stretch& release, const Stretch
   return domain;
 }
 
+// Sets the cell and the number of particles; needs volume and thicknesses. `cell`: as specified by the user, or 0.
+void propose_cell(Proposal& proposal, int dimension, double cell, Resolution resolution) {
+  proposal.cell = cell > 0.0
+                      ? cell
+                      : cell_of(resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
+  proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
+}
+
+// Sets the end and the interval between snapshots; farthest: maximum travel distance [m].
+void propose_times(Proposal& proposal, double farthest) {
+  proposal.end = std::clamp(10.0 * std::ceil(farthest / slow / 10.0), shortest_run, longest_run);
+  proposal.output_interval = round_down(proposal.end / snapshots);
+}
+
 }  // namespace
 
 double median_thickness(const Raster& thickness) {
@@ -217,163 +230,39 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle,
   return proposal;
 }
 
-void propose_cell(Proposal& proposal, int dimension, double cell, Resolution resolution) {
-  proposal.cell = cell > 0.0
-                      ? cell
-                      : cell_of(resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
-  proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
-}
-
-void propose_times(Proposal& proposal, double farthest) {
-  proposal.end = std::clamp(10.0 * std::ceil(farthest / slow / 10.0), shortest_run, longest_run);
-  proposal.output_interval = round_down(proposal.end / snapshots);
-}
-
-namespace {
-
-double degrees_of(double rise) { return std::atan(rise) / degree; }
-
-std::string taper_text(const EdgeTaper& taper) {
-  if (!(taper.width > 0.0) && !taper.is_cramped()) {
-    return "taper = 0.0  # m; the points of the DEM are so far apart that the edges of the cut are ramps already\n";
+SurfaceBody body_on(const ProfileTable& profile) {
+  SurfaceBody body;
+  bool begun = false;
+  double squares = 0.0;
+  for (std::size_t k = 0; k + 1 < profile.distance.size(); ++k) {
+    const double a = profile.surface[k] - profile.terrain[k], b = profile.surface[k + 1] - profile.terrain[k + 1];
+    if (!(a > 0.0 || b > 0.0)) {
+      continue;
+    }
+    const double length = profile.distance[k + 1] - profile.distance[k];
+    body.begin = begun ? body.begin : profile.distance[k];
+    body.end = profile.distance[k + 1];
+    begun = true;
+    body.area += 0.5 * (a + b) * length;
+    squares += (a * a + a * b + b * b) / 3.0 * length;
   }
-  return fmt::format(
-      "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume is preserved. "
-      "Vertical\n"
-      "# edges would trap the slide. At their steepest, the ramps rise {:.1f} degrees against the DEM, which falls "
-      "{:.1f}\n"
-      "# degrees here{}.\ntaper = {}  # m\n",
-      degrees_of(taper.steepest), degrees_of(taper.slope),
-      taper.is_cramped() ? fmt::format("; {} m is needed, but the release is too narrow", number_text(taper.wanted))
-                         : "",
-      number_text(taper.width));
+  body.thickness = begun ? squares / body.area : 0.0;
+  return body;
 }
 
-}  // namespace
-
-std::string case_text(const ProposalInput& input, const Proposal& proposal) {
-  const bool is_cut = input.placement == Placement::cut;
-  std::string text = fmt::format(
-      R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` lists all keys.
-
-[case]
-title = {title}
-dimension = 3  # x is east, y is north, z is up
-
-{time}
-# The domain: a box around the release and all terrain below a line that descends at {angle} degrees from its top. Empty
-# cells cost nothing.
-[grid]
-cell = {cell}  # m; {across}
-{maps}min = {min}
-max = {max}
-leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
-
-[terrain]
-type = "dem"
-file = {dem}
-smooth = {filter}  # m: filter of the DEM, at least one cell of `quick`, so that finer cells have the same ground
-
-[body.slide]
-material = "rock_ice"
-shape = "release"
-{release}thickness = {given}  # m
-thickness_along = "vertical"  # "normal": across the slope
-placement = "{placement}"  # {placement_text}
-{taper}{confirmed}{state}
-{physics}{substrates}
-# Maps are updated in every time step.
-[maps]
-arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arrived
-)",
-      fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
-      fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("across", cell_comment(proposal)), fmt::arg("maps", maps_comment(release_on_cells(proposal))),
-      fmt::arg("confirmed", input.largest_volume > 0.0
-                                ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
-                                : std::string()),
-      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text(input.base)),
-      fmt::arg("substrates", substrate_tables(input.outlines)),
-      fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", corner_text(proposal.min)),
-      fmt::arg("max", corner_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
-      fmt::arg("filter", number_text(input.filter)),
-      fmt::arg("release",
-               input.release_file.empty() ? std::string() : fmt::format("release = {}\n", quoted(input.release_file))),
-      fmt::arg("given", Value<MapValue>::write(input.thickness, {}, {})),
-      fmt::arg("placement", is_cut ? "cut" : "on_top"),
-      fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
-                                        : "the DEM is the sliding surface; \"cut\": out of the DEM"));
-  return text;
-}
-
-std::string corner_text(const Point& corner) { return Value<Point>::write(corner, {}, WriteContext{3, {}}); }
-
-std::string time_text(const Proposal& proposal) {
-  return fmt::format(R"([time]
-end = {}  # s, at the latest; make it longer if the slide still moves
-stop_at_rest = {}  # m/s; the run ends once the slide has been slower for time.rest_time; 0: it runs to the end
-stepping = "adaptive"
-output_interval = {}  # s between snapshots of all particles
-history_interval = {}
-)",
-                     number_text(proposal.end), number_text(rest_speed), number_text(proposal.output_interval),
-                     number_text(proposal.output_interval / 5.0));
-}
-
-std::string cell_comment(const Proposal& proposal) {
-  return fmt::format("two particles a cell and axis make {:.1f} across a thickness of {} m",
-                     proposal.thickness * proposal.particles_per_axis / proposal.cell,
-                     rounded_text(proposal.thickness, 3));
-}
-
-std::string body_state_text(const Proposal& proposal) {
-  return fmt::format(R"(particles_per_axis = {}
-temperature = -5.0  # C, of rock and ice at the start
-porosity = 0.375  # volume fraction of ice: all pores are full of it
-)",
-                     proposal.particles_per_axis);
-}
-
-std::string physics_text(const std::optional<ProposedBase>& base) {
-  std::string strength, band = "# The thinner the band, the sooner it melts.\n";
-  if (base && base->missing_cohesion > 0.0) {
-    strength = fmt::format(
-        "# With this friction the release could not have stood: its safety factor is {:.2g} at the start. {} Pa of\n"
-        "# cohesion (basal.cohesion, basal.slip_distance), lost since, would have held it.\n",
-        base->safety_factor, rounded_text(base->missing_cohesion, 2));
-  }
-  if (base) {
-    band = fmt::format(
-        "# {} of {} to {} m that a rigid block without pore pressure does not heat above {:g} C: {:.0f} C\n"
-        "# here (docs/theory/block-model.md). A thinner band melts sooner.\n",
-        base->temperature > ProposedBase::limit ? "There is no band" : "The thinnest band",
-        ProposedBase::candidates.back(), ProposedBase::candidates.front(), ProposedBase::limit, base->temperature);
-  }
-  return fmt::format(R"([mechanics]
-transfer = "apic"  # particle velocities without noise: the slide comes to rest, and swells less than with "flip"
-
-# Broken rock and ice.
-[material.rock_ice]
-law = "mohr_coulomb"
-youngs_modulus = 1.0e8
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 1.0e3
-gaps_close_first = true  # separated material carries no load until its gap closes
-hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays under pressure
-
-# The base. Sliding heats a shear band, its ice melts, friction falls, and the meltwater carries part of the weight.
-[basal]
-friction = "lubricated"  # "constant": plain Coulomb friction
-{strength}friction_angle = 25.0  # degrees, before anything has melted: the most influential parameter
-heat_fraction = 0.9  # fraction of the friction work that heats the band
-
-[band]
-model = "columns"
-{band}thickness = {thickness:.1f}  # m
-)",
-                     fmt::arg("strength", strength), fmt::arg("band", band),
-                     fmt::arg("thickness", base ? base->thickness : ProposedBase().thickness));
+Proposal propose_section(const ProfileTable& profile, const SurfaceBody& body) {
+  Proposal proposal;
+  proposal.volume = body.area;
+  proposal.thickness = body.thickness;
+  propose_cell(proposal, 2, 0.0, Resolution::quick);
+  propose_times(proposal, profile.distance.back() - body.begin);
+  const double cell = proposal.cell;
+  const double lowest = *std::min_element(profile.terrain.begin(), profile.terrain.end());
+  const double highest = *std::max_element(profile.surface.begin(), profile.surface.end());
+  const double cells = std::floor(profile.distance.back() / cell * (1.0 + 1e-12));
+  proposal.min = {0.0, (std::floor(lowest / cell) - margin_cells) * cell, 0.0};
+  proposal.max = {cells * cell, (std::ceil(highest / cell) + margin_cells) * cell, 0.0};
+  return proposal;
 }
 
 }  // namespace thawslide::config

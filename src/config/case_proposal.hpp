@@ -1,16 +1,16 @@
-// Initial case for a DEM and a release, with suitable cell, domain and times; also functions shared with 2D cases
-// (section_proposal.hpp).
+// Initial case for a DEM and a release, or for a section from a DEM, with suitable cell, domain and times; and its
+// sweep file.
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 
 #include "base/raster.hpp"
 #include "config/case.hpp"
+#include "config/profile_csv.hpp"
 #include "config/resolution.hpp"
-#include "config/substrate_proposal.hpp"
-#include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
 
@@ -28,6 +28,30 @@ struct ProposedBase {
   double friction = 0.0;          // friction angle of equilibrium at the start without cohesion [degrees]
   double safety_factor = 1.0;     // sliding strength over driving traction at the start
   double missing_cohesion = 0.0;  // for equilibrium at the start [Pa]; 0: none
+};
+
+// Name of the table [substrate.NAME], option of `new`, and friction coefficient with its range. All are assumptions:
+// these coefficients contain the pore pressure of events.
+struct ProposedSubstrate {
+  const char *name, *option;
+  double coefficient, low, high;
+  bool can_be_entrained;  // the case then contains an erodible bed as comments
+};
+inline constexpr std::array<ProposedSubstrate, 3> proposed_substrates{
+    {{"glacier", "--glacier", 0.1, 0.05, 0.15, false},
+     {"snow", "--snow", 0.15, 0.05, 0.25, false},
+     {"valley_floor", "--valley-floor", 0.2, 0.1, 0.3, true}}};
+
+// Files of polygons, as named in the case, by the names of proposed substrates.
+using Outlines = std::map<std::string, std::string>;
+
+// Taper of the edges of an excavated release that lets the slide leave the pit.
+struct EdgeTaper {
+  double width = 0.0;     // [m]; 0: no taper is needed, or there is no space for one
+  double wanted = 0.0;    // width without limits of space [m]
+  double steepest = 0.0;  // rise of the ramp against the terrain, divided by its run
+  double slope = 0.0;     // fall of the terrain below the release, divided by its run
+  [[nodiscard]] bool is_cramped() const { return width < wanted; }
 };
 
 // User input and facts from the files.
@@ -65,22 +89,40 @@ struct Proposal {
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0,
                                Resolution resolution = Resolution::quick);
 
-// Case file with comments.
-[[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
+// Extent of the body on a section [m].
+struct SurfaceBody {
+  double begin = 0.0, end = 0.0;  // distances of the rows before the first and after the last row with a thickness
+  double area = 0.0;              // [m2]
+  double thickness = 0.0;         // vertical, mean weighted by area [m]
+};
+
+// Requires a profile with a surface; returns a body of zero area if the surface is nowhere above the ground.
+[[nodiscard]] SurfaceBody body_on(const ProfileTable& profile);
+
+// Proposes a domain as long as the section, in whole cells, and as high as its ground and body with a margin of some
+// cells. The cell gives at least six particles across the mean thickness.
+[[nodiscard]] Proposal propose_section(const ProfileTable& profile, const SurfaceBody& body);
 
 inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
 
-// Sets the cell and the number of particles; needs volume and thicknesses. `cell` as above.
-void propose_cell(Proposal& proposal, int dimension, double cell = 0.0, Resolution resolution = Resolution::quick);
+// dem: NaN for no data; thickness: vertical [m], untapered, on the same points. The width is less than wanted if the
+// taper would reach unknown ground, or reduce the thickness in the middle of the release.
+[[nodiscard]] EdgeTaper propose_taper(const Raster& dem, const Raster& thickness);
 
-// Sets the end and the interval between snapshots; farthest: maximum travel distance [m].
-void propose_times(Proposal& proposal, double farthest);
+// Fall of the mean plane of the terrain below a release, divided by its run.
+[[nodiscard]] double slope_below(const Raster& dem, const Raster& thickness);
 
-// Corner of a domain in 3D.
-[[nodiscard]] std::string corner_text(const Point& corner);
+// Case file with comments.
+[[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
 
-// Table [time], without a trailing empty line.
-[[nodiscard]] std::string time_text(const Proposal& proposal);
+// The same for a section; `profile_file` as named in the case.
+[[nodiscard]] std::string section_text(const std::string& title, const std::string& profile_file,
+                                       const Proposal& proposal, const std::optional<ProposedBase>& base = {});
+
+// Sweep file with comments: ranges of keys of a proposed case. thickness: of the release [m]. base: of the case. quick:
+// proposal on cells of `quick`, if those of the case are others. outlines: by proposed substrate.
+[[nodiscard]] std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick,
+                                     const Outlines& outlines);
 
 // Median of a thickness raster [m] with points of equal area: half of the area is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
@@ -95,14 +137,5 @@ void propose_times(Proposal& proposal, double farthest);
 // Warning if a release is closer to the DEM edge or to no-data points than its own length, because an avalanche spreads
 // and travels farther than that. Empty otherwise.
 [[nodiscard]] std::string edge_warning(const Proposal& proposal);
-
-// Number of particles across the thickness, for the comment at grid.cell.
-[[nodiscard]] std::string cell_comment(const Proposal& proposal);
-
-// Last keys of the body: particles and initial state.
-[[nodiscard]] std::string body_state_text(const Proposal& proposal);
-
-// Tables of transfer, material, base and band.
-[[nodiscard]] std::string physics_text(const std::optional<ProposedBase>& base = {});
 
 }  // namespace thawslide::config

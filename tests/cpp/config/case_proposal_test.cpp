@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "../support/small_terrain.hpp"
-#include "config/section_proposal.hpp"
 #include "sim/between_steps/monitor.hpp"
 
 namespace thawslide::config {

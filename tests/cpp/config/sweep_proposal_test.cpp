@@ -1,12 +1,11 @@
 // sweep.toml of a new case: its ranges follow from the thickness of the release and the slope below it.
-#include "config/sweep_proposal.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "config/case_proposal.hpp"
 #include "config/toml.hpp"
 
 namespace thawslide::config {

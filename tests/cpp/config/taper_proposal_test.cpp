@@ -1,12 +1,11 @@
 // The taper that `thawslide new --cut` proposes: wide enough for the sliding mass to leave the excavation, within the
 // available space.
-#include "config/taper_proposal.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../support/small_terrain.hpp"
+#include "config/case_proposal.hpp"
 
 namespace thawslide::config {
 namespace {
