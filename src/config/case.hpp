@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -15,7 +16,6 @@
 #include "base/table.hpp"
 #include "config/case_base.hpp"
 #include "config/case_output.hpp"
-#include "config/case_source.hpp"
 #include "physics/mixture.hpp"
 #include "physics/options.hpp"
 
@@ -296,6 +296,19 @@ struct Block {
 struct Probe {
   Point point{};     // x, y
   std::string line;  // file of a cross section; absolute once read; empty: a point
+};
+
+// Text of a case file when it was read.
+struct CaseFile {
+  std::filesystem::path file;
+  std::string text;
+};
+
+// One `--set key=value`: value is the text of a TOML value, or a bare word for a string.
+struct Override {
+  std::string key;
+  std::string value;
+  std::filesystem::path folder{};  // to which paths in the value are relative
 };
 
 struct Case {

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "config/case_layers.hpp"
 #include "config/declaration.hpp"
-#include "config/overrides.hpp"
 #include "config/rule.hpp"
 #include "config/toml.hpp"
 

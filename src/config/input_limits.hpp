@@ -10,7 +10,6 @@
 namespace thawslide::config {
 
 inline constexpr double largest_case_file = 10e6;        // bytes
-inline constexpr std::size_t most_case_files = 16;       // in a chain of case.based_on
 inline constexpr std::size_t most_key_parts = 50;        // of a dotted key: deeper tables overflow the stack
 inline constexpr double largest_table_file = 100e6;      // bytes, for a profile
 inline constexpr double most_raster_points = 4e8;        // read from one raster: 20 km x 20 km at 1 m

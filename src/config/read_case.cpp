@@ -7,11 +7,10 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "config/case_layers.hpp"
 #include "config/checks.hpp"
 #include "config/declaration.hpp"
 #include "config/input_limits.hpp"
-#include "config/overrides.hpp"
-#include "config/variants.hpp"
 
 namespace thawslide::config {
 

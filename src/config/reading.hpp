@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/case_source.hpp"
+#include "config/case.hpp"
 #include "config/problems.hpp"
 #include "config/rule.hpp"
 #include "config/toml.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "config/variants.hpp"
+#include "config/case_layers.hpp"
 
 namespace thawslide::config {
 

@@ -1,4 +1,5 @@
-// Case file that is based on another one of its folder: the keys of the base apply unless replaced.
+// Layers of a case: a case file, those of its folder on which it is based, and `--set key=value` texts. The keys of a
+// layer replace those below it.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "config/case_source.hpp"
-#include "config/toml.hpp"
+#include "config/case.hpp"
+#include "config/reading.hpp"
 
 namespace thawslide::config {
 
@@ -28,5 +29,11 @@ std::vector<CaseFile> read_with_bases(const std::filesystem::path& file);
 
 // Merges the first of these files over the others. Nodes keep their original locations.
 LayeredCase merged(const std::vector<CaseFile>& files);
+
+// Splits "band.thickness=0.1" at the first '='. Throws UserError if there is no '=' or no key.
+Override parse_override(const std::string& text);
+
+// Inserts the values of reading.overrides into the tables, replacing those of the file.
+void apply_overrides(toml::table& root, Reading& reading);
 
 }  // namespace thawslide::config
