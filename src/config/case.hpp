@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "base/table.hpp"
-#include "config/case_base.hpp"
-#include "config/case_output.hpp"
+#include "config/case_sections.hpp"
 #include "physics/mixture.hpp"
 #include "physics/options.hpp"
 

@@ -95,6 +95,14 @@ void check_times(const Case& checked, Reading& reading) {
   }
 }
 
+void check_force_periods(const Case& checked, Reading& reading) {
+  const Report& report = checked.report;
+  reading.refuse_if(!report.force_record.empty() && report.force_periods.size() != 2, {"report.force_periods"},
+                    "report.force_periods is an array of {} numbers; allowed: 2 numbers, the shortest and the longest "
+                    "period of the waves.",
+                    report.force_periods.size());
+}
+
 // Checks the profile against the domain; returns an empty table if there is none, or if it has other problems.
 ProfileTable checked_profile(const Case& checked, Reading& reading) {
   if (checked.terrain.kind != TerrainKind::profile || !reading.are_valid({"terrain.file"}) ||
@@ -150,7 +158,8 @@ void check_case(const Case& checked, Reading& reading) {
   check_exclusions(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
-  check_files(checked, reading);
+  check_force_periods(checked, reading);
+  check_file_names(checked, reading);
   check_width(checked, reading);
 }
 

@@ -36,7 +36,7 @@ void check_maps(const Case& checked, Reading& reading);
 // Checks the width of a section; must follow the other checks.
 void check_width(const Case& checked, Reading& reading);
 
-// Checks names of input files.
-void check_files(const Case& checked, Reading& reading);
+// Checks that input files have different names, because a run keeps copies of all inputs in one folder.
+void check_file_names(const Case& checked, Reading& reading);
 
 }  // namespace thawslide::config

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "config/checks.hpp"
+#include "config/grounds.hpp"
 #include "config/input_limits.hpp"
-#include "config/strips.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::config {

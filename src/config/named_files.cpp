@@ -1,8 +1,12 @@
 #include "config/named_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
+
+#include "config/checks.hpp"
 
 namespace thawslide::config {
 
@@ -59,6 +63,24 @@ std::vector<InputFile> named_files(const Case& parameters) {
   add("report.force_record", parameters.report.force_record, false);
   add_map_files(parameters, [&add](const std::string& key, const std::string& file) { add(key, file, true); });
   return files;
+}
+
+void check_file_names(const Case& checked, Reading& reading) {
+  const std::vector<InputFile> files = named_files(checked);
+  for (std::size_t later = 1; later < files.size(); ++later) {
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      const auto& [key, file, is_map] = files[later];
+      const auto& [other_key, other, other_is_map] = files[earlier];
+      if (file.filename() == other.filename() && reading.are_valid({key, other_key})) {
+        reading.report_misfit(
+            {key, other_key.empty() ? key : other_key},
+            fmt::format("{} leads to {}, and {} {}; allowed: names of their own, since a run keeps copies of all its "
+                        "inputs in one folder. Rename one.",
+                        key, file.string(), other_key.empty() ? "the case file is" : other_key + " to",
+                        other.string()));
+      }
+    }
+  }
 }
 
 }  // namespace thawslide::config

@@ -8,8 +8,6 @@
 
 #include "base/portability.hpp"
 #include "config/declaration.hpp"
-#include "config/plausibility.hpp"
-#include "config/strips.hpp"
 
 namespace thawslide::config {
 
@@ -124,7 +122,7 @@ std::vector<std::string> unusual_numbers(const Case& parameters) {
 
 std::vector<std::string> notices(const Case& parameters) {
   std::vector<std::string> notices = parameters.notes;
-  for (const auto& more : {unusual_numbers(parameters), implausible(parameters), warnings_of_gaps(parameters)}) {
+  for (const auto& more : {unusual_numbers(parameters), implausible(parameters)}) {
     notices.insert(notices.end(), more.begin(), more.end());
   }
   return notices;

@@ -1,4 +1,5 @@
-// Values of a valid case outside the usual range, reported before a run; they are not errors.
+// Values of a valid case that are outside the usual range or probably unintended, reported before a run; they are not
+// errors.
 #pragma once
 
 #include <string>
@@ -25,6 +26,12 @@ auto with_unusual_numbers(const Case& parameters, const Work& work) {
     throw UserError(message);
   }
 }
+
+// Young's modulus [Pa] below which a slide collapses under its own weight.
+inline constexpr double softest_modulus = 1e6;
+
+// Values that are probably unintended: each warning specifies its location and the remedy.
+[[nodiscard]] std::vector<std::string> implausible(const Case& parameters);
 
 // Each notice specifies the location, the value, the usual range and the consequence.
 std::vector<std::string> notices(const Case& parameters);

@@ -1,5 +1,3 @@
-#include "config/plausibility.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <limits>
 
 #include "base/rounding.hpp"
+#include "config/grounds.hpp"
+#include "config/notices.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
@@ -35,6 +35,8 @@ class Warnings {
   void add_absent(const std::string& key, const std::string& text) {
     found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, text));
   }
+  // Adds a warning without a key.
+  void add(std::string text) { found_.push_back(std::move(text)); }
   [[nodiscard]] std::vector<std::string> release() { return std::move(found_); }
 
  private:
@@ -129,6 +131,17 @@ void warn_about_ground(const std::string& table, const GroundStrength& ground, W
     warnings.add(table + ".friction_angle", angle, " degrees",
                  "was a coefficient meant? Angles are in degrees; for a coefficient set friction = \"coefficient\" and "
                  "friction_coefficient.");
+  }
+}
+
+void warn_about_gaps(const Case& parameters, Warnings& warnings) {
+  const std::vector<Strip> strips = strips_of(parameters);
+  for (std::size_t k = 1; k < strips.size(); ++k) {
+    if (const double from = strips[k - 1].to, to = strips[k].from; to > from) {
+      warnings.add(fmt::format(
+          "between the substrates {} and {}, from x = {:.9g} to {:.9g} m, there is no substrate: [basal] applies there",
+          strips[k - 1].name, strips[k].name, from, to));
+    }
   }
 }
 
@@ -238,6 +251,7 @@ std::vector<std::string> implausible(const Case& parameters) {
   warn_about_bodies(parameters, warnings);
   warn_about_step(parameters, warnings);
   warn_about_output(parameters, warnings);
+  warn_about_gaps(parameters, warnings);
   return warnings.release();
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/instances.hpp"
-#include "config/scheduled_events.hpp"
+#include "config/grounds.hpp"
 
 namespace thawslide::sim {
 

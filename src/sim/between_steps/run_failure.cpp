@@ -7,7 +7,7 @@
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
 #include "config/case_proposal.hpp"
-#include "config/plausibility.hpp"
+#include "config/notices.hpp"
 #include "physics/mixture.hpp"
 #include "sim/maps/path_line.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "base/linear.hpp"
 #include "base/rounding.hpp"
-#include "config/basal_laws.hpp"
-#include "config/plausibility.hpp"
+#include "config/grounds.hpp"
+#include "config/notices.hpp"
 #include "config/resolution.hpp"
 #include "physics/softening.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "config/basal_laws.hpp"
 #include "config/body_layers.hpp"
+#include "config/grounds.hpp"
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
 #include "sim/setup/domain_bottom.hpp"

@@ -1,7 +1,6 @@
 // Substrates in the case file.
 #include "case_messages.hpp"
 #include "config/notices.hpp"
-#include "config/strips.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
@@ -27,7 +26,6 @@ TEST(Substrates, HaveSeparateLawsAndAreas) {
   EXPECT_TRUE(std::isinf(ice.x_max));
   EXPECT_EQ(moraine.numbers(physics::basal::friction_angle), 30.0);
   EXPECT_EQ(moraine.numbers(physics::basal::initial_cohesion), 0.0) << "the value of [basal] is not inherited";
-  EXPECT_TRUE(warnings_of_gaps(found).empty());
   EXPECT_EQ(found.basal.friction, "lubricated");
 }
 
@@ -35,9 +33,9 @@ TEST(Substrates, ThatMeetHaveNoGapAndAGapCausesAWarning) {
   const auto with = [](double x_min) {
     return on_glacier("x_max = 50.0\n") + fmt::format("[substrate.snow]\nx_min = {}\n{}", x_min, coefficient);
   };
-  EXPECT_TRUE(warnings_of_gaps(case_from_text(with(50.0))).empty());
+  EXPECT_TRUE(notices(case_from_text(with(50.0), {"heat.enabled=false"})).empty());
   EXPECT_EQ(
-      notices(case_from_text(with(60.0), {"block.bends=true", "heat.enabled=false"})),
+      notices(case_from_text(with(60.0), {"heat.enabled=false"})),
       std::vector<std::string>{
           "between the substrates ice and snow, from x = 50 to 60 m, there is no substrate: [basal] applies there"});
 }

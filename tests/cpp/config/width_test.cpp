@@ -1,7 +1,7 @@
 // A width that varies along x, its warning, and the width in the resolved case.
 #include "case_messages.hpp"
 #include "config/describe.hpp"
-#include "config/plausibility.hpp"
+#include "config/notices.hpp"
 
 namespace thawslide::config {
 namespace {

@@ -7,7 +7,7 @@
 #include "../support/base_cases.hpp"
 #include "../support/messages.hpp"
 #include "base/parallel.hpp"
-#include "config/scheduled_events.hpp"
+#include "config/grounds.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"

@@ -1,0 +1,81 @@
+#include "config/grounds.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "base/error.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+// Law of a keyword, with its parameters.
+template <class Laws>
+Laws law_named(const std::string& keyword, const LawNumbers& numbers) {
+  Laws found{};
+  bool is_known = false;
+  physics::basal::for_each_law<Laws>([&]<class Law>(physics::basal::OfType<Law>) {
+    if (keyword == Law::keyword) {
+      found = Law::from(numbers);
+      is_known = true;
+    }
+  });
+  THAWSLIDE_ASSERT(is_known, "no law of the base is called {}", keyword);
+  return found;
+}
+
+}  // namespace
+
+physics::basal::FrictionLaw friction_of(const GroundStrength& ground) {
+  return law_named<physics::basal::FrictionLaw>(ground.friction, ground.numbers);
+}
+
+physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground) {
+  const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
+  return law_named<physics::basal::CohesionLaw>(
+      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::keyword, ground.numbers);
+}
+
+namespace {
+
+// Time at which ground loses its cohesion [s]; 0 if it does so by slip, or does not.
+double cohesion_loss_time(const GroundStrength& ground) {
+  return std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.loss_time; }) {
+          return law.initial == law.residual ? 0.0 : law.loss_time;
+        } else {
+          return 0.0;
+        }
+      },
+      cohesion_of(ground));
+}
+
+}  // namespace
+
+double last_scheduled_event(const Case& parameters) {
+  double last = cohesion_loss_time(parameters.basal);
+  for (const auto& [name, substrate] : parameters.substrates) {
+    last = std::max(last, cohesion_loss_time(substrate));
+  }
+  const auto& thickness = parameters.band.thickness.table;
+  for (std::size_t k = 1; k < thickness.abscissa.size(); ++k) {
+    if (thickness.value[k] != thickness.value[k - 1]) {
+      last = std::max(last, thickness.abscissa[k]);
+    }
+  }
+  return last;
+}
+
+std::vector<Strip> strips_of(const Case& parameters) {
+  std::vector<Strip> strips;
+  for (const auto& [name, substrate] : parameters.substrates) {
+    if (substrate.is_strip()) {
+      strips.push_back({name, substrate.x_min, substrate.x_max});
+    }
+  }
+  std::sort(strips.begin(), strips.end(), [](const Strip& one, const Strip& other) { return one.from < other.from; });
+  return strips;
+}
+
+}  // namespace thawslide::config
