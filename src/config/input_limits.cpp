@@ -64,6 +64,19 @@ std::string shown(const std::string& text) {
   return text.size() > most_letters_quoted ? plain + "..." : plain;
 }
 
+std::vector<std::string> names_in(const fs::path& folder, const std::string& ending) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (ending.empty() || entry->path().extension() == ending) {
+      names.push_back(entry->path().filename().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::string other_kind_of_file(const fs::path& path) {
   std::error_code unknown;
   switch (fs::status(path, unknown).type()) {
@@ -87,7 +100,5 @@ bool lies_within(const fs::path& path, const fs::path& folder) {
   const fs::path inside = fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(whole, error));
   return !inside.empty() && *inside.begin() != "..";
 }
-
-std::string in_quotes(const std::string& text) { return "'" + shown(text) + "'"; }
 
 }  // namespace thawslide::config

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thawslide::config {
 
@@ -30,8 +31,9 @@ void require_size(const std::filesystem::path& file, double max_bytes, const std
 
 // Text in the form for messages: truncated, and with characters that would control a terminal replaced by '?'.
 [[nodiscard]] std::string shown(const std::string& text);
-// The same in single quotes.
-[[nodiscard]] std::string in_quotes(const std::string& text);
+
+// Names of the files in a folder with this ending, or of all entries; empty if it cannot be read.
+[[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& folder, const std::string& ending);
 
 // Kind of a path that is not a file: "a folder", "a pipe", "a device". Empty for a file, or nothing.
 [[nodiscard]] std::string other_kind_of_file(const std::filesystem::path& path);

@@ -194,7 +194,7 @@ dimension = 3  # x is east, y is north, z is up
 # cells cost nothing.
 [grid]
 cell = {cell}  # m; {across}
-{maps}min = {min}
+min = {min}
 max = {max}
 leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
 
@@ -217,7 +217,7 @@ arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arriv
 )",
       fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
       fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("across", cell_comment(proposal)), fmt::arg("maps", maps_comment(release_on_cells(proposal))),
+      fmt::arg("across", cell_comment(proposal)),
       fmt::arg("confirmed", input.largest_volume > 0.0
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),

@@ -18,20 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of the files in a folder with this ending, or of all entries; empty if it cannot be read.
-std::vector<std::string> names_in(const fs::path& folder, const std::string& ending) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (ending.empty() || entry->path().extension() == ending) {
-      names.push_back(entry->path().filename().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 // Case file for a file or a folder; throws if there is none.
 fs::path find_case_file(const fs::path& given) {
   std::error_code error;

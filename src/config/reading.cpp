@@ -36,17 +36,13 @@ std::string likely_unit(const Rule& rule, double found) {
 // Suggestion for a missing file, such as "; did you mean 'profile.csv'?": one in its folder with the same ending. Empty
 // if none is similar.
 std::string similar_file(const std::filesystem::path& file) {
-  std::vector<std::string> stems;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(file.parent_path(), error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->path().extension() == file.extension()) {
-      stems.push_back(entry->path().stem().string());
-    }
+  const std::string ending = file.extension().string();
+  std::vector<std::string> stems = names_in(file.parent_path(), ending);
+  for (std::string& name : stems) {
+    name.resize(name.size() - ending.size());
   }
-  std::sort(stems.begin(), stems.end());
   const std::string found = nearest(file.stem().string(), stems);
-  return found.empty() ? "" : fmt::format("; did you mean '{}{}'?", found, file.extension().string());
+  return found.empty() ? "" : fmt::format("; did you mean '{}{}'?", found, ending);
 }
 
 }  // namespace

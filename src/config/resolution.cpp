@@ -65,17 +65,6 @@ std::string resolution_warning(const BodyOnCells& body, const std::string& key) 
                      lacks_cells && !lacks_particles ? " Travel distance and speed need 2." : "");
 }
 
-std::string maps_comment(const BodyOnCells& body) {
-  if (are_enough(body.thickness / body.cell, cells_for_maps)) {
-    return "";
-  }
-  const double finer = round_down(body.thickness / cells_for_maps);
-  return fmt::format(
-      "# Travel distance and speed need 2 cells across the thickness of the release. Maps of thickness and area need\n"
-      "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",
-      cells_for_maps, finer, rounded_text(run_time_factor(body.cell, finer, body.dimension)));
-}
-
 Resolution resolution_named(const std::string& name) {
   const auto* const found = std::find_if(resolutions.begin(), resolutions.end(),
                                          [&](const ResolutionFacts& facts) { return name == facts.name; });

@@ -43,9 +43,6 @@ struct BodyOnCells {
 // there are enough. It starts with `key`, which sets the cell. Any cell fits the domain, which moves to whole cells.
 [[nodiscard]] std::string resolution_warning(const BodyOnCells& body, const std::string& key);
 
-// Comment for a case file: the cell for maps of a body, and its cost. Empty if the present cell is small enough.
-[[nodiscard]] std::string maps_comment(const BodyOnCells& body);
-
 enum class Resolution { quick, standard, fine };
 
 // A named resolution, its cells across the thickness of the release, and what cells half as large change: on a plane

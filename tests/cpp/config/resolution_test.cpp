@@ -1,5 +1,4 @@
-// Cell sizes: warnings about too few particles or cells across a body, the cost of finer cells, sizes that divide the
-// domain.
+// Cell sizes: warnings about too few particles or cells across a body, and the cost of finer cells.
 #include "config/resolution.hpp"
 
 #include <gtest/gtest.h>
@@ -106,32 +105,6 @@ TEST(Resolution, MapsAreRequestedByTheirCellOrTheirMinimumThickness) {
   EXPECT_TRUE(asks(space + "[maps]\narrival_thickness = 0.1\n")) << "at its default, and given";
   EXPECT_FALSE(asks(space + "[maps]\narrival_thickness = 0.1  # not given\n")) << "the case of a run";
   EXPECT_TRUE(asks(space, {"maps.cell=2.0"}));
-}
-
-// The comment in a case of `thawslide new` states the same cell and cost as the warning.
-TEST(Resolution, TheCommentOfACaseAgreesWithTheWarning) {
-  for (const double cell : {30.0, 12.0, 8.0, 6.1}) {
-    BodyOnCells body = body_on(24.0, cell, 2, true);
-    const std::string comment = maps_comment(body), warning = resolution_warning(body, "--cell");
-    EXPECT_NE(comment.find("cells of 6 m (`thawslide new --resolution standard`), at about"), std::string::npos)
-        << comment;
-    const std::string cost = comment.substr(comment.find("at about"));
-    EXPECT_NE(warning.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << warning;
-  }
-  BodyOnCells fine = body_on(24.0, 6.0, 2, true);
-  EXPECT_EQ(maps_comment(fine), "");
-}
-
-TEST(Resolution, AProposedCaseHasTheComment) {
-  Proposal proposal;
-  proposal.thickness = proposal.median_thickness = 24.0;
-  proposal.cell = 8.0;
-  const std::string made = case_text(ProposalInput(), proposal);
-  EXPECT_NE(made.find("cell = 8.0  # m; two particles a cell and axis make 6.0 across a thickness of 24 m\n" +
-                      maps_comment(release_on_cells(proposal)) + "min = "),
-            std::string::npos)
-      << made;
-  EXPECT_NE(maps_comment(release_on_cells(proposal)), "");
 }
 
 TEST(Resolution, HasTheCellsNeededForItsResults) {
