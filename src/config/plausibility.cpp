@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/rounding.hpp"
 #include "config/grounds.hpp"
@@ -13,14 +12,11 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double smallest_angle = 3.0;            // [degrees]; tan 3 is 0.05, the minimum reported for ice on ice
 constexpr double least_strain_at_failure = 3e-6;  // cohesion over Young's modulus; crushed ice has about 5e-6
 constexpr double largest_coefficient = 1.5;
 constexpr double steepest_widening = 1.0;  // [m/m]; 27 degrees per side
 constexpr double warm = 0.0;               // [C]
-constexpr double most_snapshots = 10000.0;
-constexpr double least_wall_interval = 1.0;  // [s]
 constexpr double most_steps = 1e9;
 
 class Warnings {
@@ -183,56 +179,26 @@ void warn_about_step(const Case& parameters, Warnings& warnings) {
   }
 }
 
-bool is_from_command_line(const Case& parameters, const std::string& key) {
-  return location_of(parameters, key).starts_with("--");
-}
-
-// True for a short trial of a case that stops at rest: the command line sets the end, but no key of rest.
-bool is_shortened_trial(const Case& parameters) {
-  return is_from_command_line(parameters, "time.end") && !is_from_command_line(parameters, "time.stop_at_rest") &&
-         !is_from_command_line(parameters, "time.rest_time");
-}
-
 void warn_about_output(const Case& parameters, Warnings& warnings) {
   const Time& time = parameters.time;
-  const bool is_fixed = time.stepping == Stepping::fixed;
-  // Output is written at most once per step, and adaptive steps are cut to the times of snapshots.
-  const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
-  if (time.output_interval > time.end) {
-    warnings.add(
-        "time.output_interval", time.output_interval, " s",
-        fmt::format("longer than the run of {} s, which leaves only the first and the last snapshot.", time.end));
+  const struct {
+    const char* key;
+    double interval;
+    const char* rest;
+  } intervals[] = {{"time.output_interval", time.output_interval, "only the first and the last snapshot"},
+                   {"time.history_interval", time.history_interval, "only the first and the last row of history.csv"},
+                   {"checkpoint.interval", parameters.checkpoint.interval, "the checkpoints by wall-clock time"}};
+  for (const auto& [key, interval, rest] : intervals) {
+    if (interval > time.end) {
+      warnings.add(key, interval, " s", fmt::format("longer than the run of {} s, which leaves {}.", time.end, rest));
+    }
   }
-  if (snapshots > most_snapshots) {
-    warnings.add("time.output_interval", time.output_interval, " s",
-                 fmt::format("that is {} snapshots, each a file, too many for a folder or an animation.",
-                             count_text(snapshots)));
-  }
-  if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval <= time.step) {
-    warnings.add("checkpoint.interval", interval, " s",
-                 fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. {}",
-                             time.step,
-                             parameters.checkpoint.wall_interval > 0.0
-                                 ? "Remove the key: checkpoint.wall_interval writes them by wall-clock time."
-                                 : "Set checkpoint.wall_interval to write them by wall-clock time."));
-  }
-  if (const double interval = parameters.checkpoint.interval; interval > time.end) {
-    warnings.add("checkpoint.interval", interval, " s",
-                 fmt::format("longer than the run of {} s, which leaves the checkpoints of checkpoint.wall_interval.",
-                             time.end));
-  }
-  if (time.stop_at_rest > 0.0 && time.rest_time > time.end && !is_shortened_trial(parameters)) {
+  // A short trial of a case that stops at rest: the command line sets the end, but no key of rest.
+  const auto is_set = [&](const char* key) { return location_of(parameters, key).starts_with("--"); };
+  const bool is_trial = is_set("time.end") && !is_set("time.stop_at_rest") && !is_set("time.rest_time");
+  if (time.stop_at_rest > 0.0 && time.rest_time > time.end && !is_trial) {
     warnings.add("time.rest_time", time.rest_time, " s",
                  fmt::format("longer than the run of {} s, which then never stops at rest.", time.end));
-  }
-  if (const double interval = parameters.checkpoint.wall_interval; interval > 0.0 && interval < least_wall_interval) {
-    warnings.add("checkpoint.wall_interval", interval, " s",
-                 "checkpoints this frequent take most of the run time; typical values are a minute to an hour.");
-  }
-  if (time.history_interval > time.end) {
-    warnings.add(
-        "time.history_interval", time.history_interval, " s",
-        fmt::format("longer than the run of {} s: history.csv then contains only its first and last rows.", time.end));
   }
 }
 
