@@ -16,28 +16,6 @@ namespace {
 const std::array side_names{"heat.boundary.x_min", "heat.boundary.x_max", "heat.boundary.y_min",
                             "heat.boundary.y_max", "heat.boundary.z_min", "heat.boundary.z_max"};
 
-void check_filter(const Case& checked, Reading& reading) {
-  const Mechanics &mechanics = checked.mechanics, usual;
-  if (!reading.are_valid({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
-    return;
-  }
-  const bool filters = mechanics.transfer == Transfer::fmpm;
-  for (const auto& [key, is_given] :
-       {std::pair("mechanics.fmpm_interval", mechanics.fmpm_interval != usual.fmpm_interval),
-        std::pair("mechanics.fmpm_order", mechanics.fmpm_order != usual.fmpm_order)}) {
-    reading.refuse_if(is_given && !filters, {key, "mechanics.transfer"},
-                      "{0} is given, and mechanics.transfer is not \"fmpm\"; no other transfer has it. Set "
-                      "mechanics.transfer = \"fmpm\", or remove {0}.",
-                      key);
-  }
-  reading.refuse_if(
-      filters && checked.time.stepping == Stepping::fixed && mechanics.fmpm_interval < checked.time.step,
-      {"mechanics.fmpm_interval", "time.step"},
-      "mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; velocities are filtered once a step at "
-      "most. Make the interval longer.",
-      mechanics.fmpm_interval, checked.time.step);
-}
-
 // Checks keys that make each other ineffective.
 void check_switches(const Case& checked, Reading& reading) {
   const bool has_ground = checked.terrain.kind != TerrainKind::none;
@@ -51,11 +29,6 @@ void check_switches(const Case& checked, Reading& reading) {
       {"mechanics.slope_shear", "mechanics.initial_stress"},
       "mechanics.slope_shear is true, and mechanics.initial_stress is not \"geostatic\"; only that stress "
       "takes the shear. Set mechanics.initial_stress = \"geostatic\", or mechanics.slope_shear = false.");
-  reading.refuse_if(mechanics.pic_fraction != 0.0 && mechanics.transfer != Transfer::blend,
-                    {"mechanics.pic_fraction", "mechanics.transfer"},
-                    "mechanics.pic_fraction is {}, and mechanics.transfer is not \"blend\"; no other transfer has it. "
-                    "Set mechanics.transfer = \"blend\", or remove mechanics.pic_fraction.",
-                    mechanics.pic_fraction);
   reading.refuse_if(checked.band.region == BandRegion::first_layer && !has_ground, {"band.region", "terrain.type"},
                     "band.region is \"first_layer\", and the case has no terrain; there is no layer above it. Set "
                     "band.region = \"all\", or give terrain.type.");
@@ -66,11 +39,12 @@ void check_switches(const Case& checked, Reading& reading) {
                     {"mechanics.effective_stress", "pressure.enabled"},
                     "mechanics.effective_stress is true, and pressure.enabled is false; there is no pore pressure to "
                     "subtract. Set pressure.enabled = true, or mechanics.effective_stress = false.");
-  reading.refuse_if(checked.terrain.slope != 0.0 && checked.terrain.kind != TerrainKind::plane,
-                    {"terrain.slope", "terrain.type"},
-                    "terrain.slope is {} degrees, and terrain.type is not \"plane\"; no other ground has it. Set "
-                    "terrain.type = \"plane\", or remove terrain.slope.",
-                    checked.terrain.slope);
+  reading.refuse_if(mechanics.transfer == Transfer::fmpm && checked.time.stepping == Stepping::fixed &&
+                        mechanics.fmpm_interval < checked.time.step,
+                    {"mechanics.fmpm_interval", "time.step", "mechanics.transfer"},
+                    "mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; velocities are filtered "
+                    "once a step at most. Make the interval longer.",
+                    mechanics.fmpm_interval, checked.time.step);
   reading.refuse_if(
       checked.heat.advection_form == AdvectionForm::conservative && water_seeps(checked) &&
           (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial),
@@ -253,7 +227,6 @@ void check_exclusions(const Case& checked, Reading& reading) {
   check_contact(checked, reading);
   check_switches(checked, reading);
   check_band_columns(checked, reading);
-  check_filter(checked, reading);
 }
 
 void check_width(const Case& checked, Reading& reading) {

@@ -226,12 +226,9 @@ void declare_bed(Tables& tables) {
 void declare_contact(Tables& tables) {
   const char* const friction_text = "friction angle between bodies that are in contact";
   const Range friction_range{.low = 0, .high = 90, .high_open = true};
-  const Condition<Contact> frictional{
-      "when contact.between_bodies is \"frictional\"", "between_bodies",
-      [](const Case&, const Contact& contact) { return contact.between_bodies == BodyContact::frictional; }};
-  const Condition<ContactPair> pair{
-      "when the pair's contact is \"frictional\"", "contact",
-      [](const Case&, const ContactPair& of) { return of.contact == BodyContact::frictional; }};
+  const auto frictional =
+      if_is(&Contact::between_bodies, BodyContact::frictional, "contact.between_bodies", "between_bodies");
+  const auto pair = if_is(&ContactPair::contact, BodyContact::frictional, "the pair's contact", "contact");
   declare(tables, "contact", "Contact between bodies", &Case::contact,
           {parameter(&Contact::between_bodies, "between_bodies", "contact between bodies without a [contact_pair.NAME]",
                      {.source = "Bardenhagen et al. (2000); Nairn (2013)"}),

@@ -9,10 +9,9 @@ namespace thawslide::config {
 namespace {
 
 void declare_body(Tables& tables) {
-  const Condition<Body> box{"when the shape is \"box\"", "shape",
-                            [](const Case&, const Body& body) { return body.shape == BodyShape::box; }};
-  const Condition<Body> release{"when the shape is \"release\"", "shape",
-                                [](const Case&, const Body& body) { return body.shape == BodyShape::release; }};
+  const auto box = if_is(&Body::shape, BodyShape::box, "the shape", "shape");
+  const auto polygon = if_is(&Body::shape, BodyShape::polygon, "the shape", "shape");
+  const auto release = if_is(&Body::shape, BodyShape::release, "the shape", "shape");
   const Condition<Body> no_release{"when the shape is not \"release\"", "shape",
                                    [](const Case&, const Body& body) { return body.shape != BodyShape::release; }};
   const Condition<Body> polygons{
@@ -25,8 +24,7 @@ void declare_body(Tables& tables) {
        parameter(&Body::min, "min", "m", {}, "minimum coordinates of the box").required_if(box).only_if(no_release),
        parameter(&Body::max, "max", "m", {}, "maximum coordinates of the box").required_if(box).only_if(no_release),
        parameter(&Body::vertices, "vertices", "m", {}, "vertices of the polygon, in order", {.dimension = 2})
-           .required_if("when the shape is \"polygon\"",
-                        [](const Case&, const Body& body) { return body.shape == BodyShape::polygon; }),
+           .required_if(polygon),
        parameter(&Body::release, "release", "file of the release polygons: Shapefile, GeoPackage or GeoJSON",
                  {.is_path = true})
            .required_if("when the shape is \"release\" and thickness is a number or an attribute",

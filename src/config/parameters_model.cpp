@@ -6,9 +6,11 @@ namespace thawslide::config {
 namespace {
 
 void declare_mechanics(Tables& tables) {
-  const Condition<Mechanics> settling{
-      "when mechanics.initial_stress is \"settle\"", "initial_stress",
-      [](const Case&, const Mechanics& mechanics) { return mechanics.initial_stress == InitialStress::settle; }};
+  const auto settling =
+      if_is(&Mechanics::initial_stress, InitialStress::settle, "mechanics.initial_stress", "initial_stress");
+  const auto blend = if_is(&Mechanics::transfer, Transfer::blend, "mechanics.transfer", "transfer");
+  const auto fmpm = if_is(&Mechanics::transfer, Transfer::fmpm, "mechanics.transfer", "transfer");
+  const auto splitting = if_is(&Mechanics::split_stretched, true, "mechanics.split_stretched", "split_stretched");
   declare(
       tables, "mechanics", "Momentum and stress", &Case::mechanics,
       {parameter(&Mechanics::enabled, "enabled",
@@ -20,15 +22,16 @@ void declare_mechanics(Tables& tables) {
                  {.source = "Lei et al., Eq. 13"}),
        parameter(&Mechanics::pic_fraction, "pic_fraction", "", between(0, 1),
                  "fraction of PIC in the particle velocities; 0: FLIP, 1: PIC")
-           .required_if("when mechanics.transfer is \"blend\"",
-                        [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::blend; }),
+           .required_if(blend)
+           .only_if(blend),
        parameter(&Mechanics::fmpm_order, "fmpm_order", "", between(2, 4),
                  "order m of the filter FMPM; a higher order damps long waves less",
-                 {.source = "Hammerquist and Nairn (2017)"}),
+                 {.source = "Hammerquist and Nairn (2017)"})
+           .only_if(fmpm),
        parameter(&Mechanics::fmpm_interval, "fmpm_interval", "s", above(0),
                  "simulated time between applications of the filter FMPM")
-           .required_if("when mechanics.transfer is \"fmpm\"",
-                        [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::fmpm; }),
+           .required_if(fmpm)
+           .only_if(fmpm),
        parameter(&Mechanics::initial_stress, "initial_stress", "stress at t = 0; none is published"),
        parameter(&Mechanics::k0, "k0", "", at_least(0),
                  "coefficient K0 of the geostatic stress: stress along the terrain divided by stress normal to it")
@@ -50,8 +53,7 @@ void declare_mechanics(Tables& tables) {
                  "true: particles stretched along the ground to more than 1.5 cells are split in two"),
        parameter(&Mechanics::split_limit, "split_limit", "", above(1),
                  "maximum number of particles after splitting, relative to the number at t = 0")
-           .only_if({"when mechanics.split_stretched is true", "split_stretched",
-                     [](const Case&, const Mechanics& mechanics) { return mechanics.split_stretched; }})});
+           .only_if(splitting)});
 }
 
 void declare_band(Tables& tables) {
@@ -60,10 +62,8 @@ void declare_band(Tables& tables) {
         fmt::format("when band.model is \"columns\" and band.growth is \"{}\"", keyword), "growth",
         [growth](const Case&, const Band& band) { return band.model == BandKind::columns && band.growth == growth; }};
   };
-  const Condition<Band> scaled{"when band.model is \"scaled\"", "model",
-                               [](const Case&, const Band& band) { return band.model == BandKind::scaled; }};
-  const Condition<Band> columns{"when band.model is \"columns\"", "model",
-                                [](const Case&, const Band& band) { return band.model == BandKind::columns; }};
+  const auto scaled = if_is(&Band::model, BandKind::scaled, "band.model", "model");
+  const auto columns = if_is(&Band::model, BandKind::columns, "band.model", "model");
   const Condition<Band> inertial = grows("inertial", BandGrowth::inertial), by_slip = grows("slip", BandGrowth::slip);
   declare(
       tables, "band", "Shear band at the base", &Case::band,

@@ -12,8 +12,7 @@ void declare_times(Tables& tables) {
       {parameter(&Time::end, "end", "s", above(0), "simulated time at which the run ends").required(),
        parameter(&Time::stepping, "stepping", "choice of the time step"),
        parameter(&Time::step, "step", "s", above(0), "fixed time step, or upper limit of the adaptive time step")
-           .required_if("when time.stepping is \"fixed\"",
-                        [](const Case&, const Time& time) { return time.stepping == Stepping::fixed; })
+           .required_if(if_is(&Time::stepping, Stepping::fixed, "time.stepping", "stepping"))
            .otherwise("no upper limit", [](const Case&, Time& time) { time.step = time.end; }),
        parameter(&Time::safety, "safety", "", {.low = 0, .high = 1, .low_open = true},
                  "safety factor of the adaptive time step: fraction of the smallest stability limit"),
@@ -76,8 +75,8 @@ void declare_grid(Tables& tables) {
 void declare_terrain(Tables& tables) {
   const Condition<Terrain> no_dem{"when terrain.type is not \"dem\"", "type",
                                   [](const Case&, const Terrain& terrain) { return terrain.kind != TerrainKind::dem; }};
-  const Condition<Terrain> on_dem{"when terrain.type is \"dem\"", "type",
-                                  [](const Case&, const Terrain& terrain) { return terrain.kind == TerrainKind::dem; }};
+  const auto on_dem = if_is(&Terrain::kind, TerrainKind::dem, "terrain.type", "type");
+  const auto on_plane = if_is(&Terrain::kind, TerrainKind::plane, "terrain.type", "type");
   declare(
       tables, "terrain", "Terrain on which bodies slide", &Case::terrain,
       joined<Terrain>(
@@ -87,7 +86,7 @@ void declare_terrain(Tables& tables) {
                 .only_if(no_dem),
             parameter(&Terrain::slope, "slope", "degrees", inside(-90, 90),
                       "slope angle of the plane, positive if it falls towards +x")
-                .only_if(no_dem),
+                .only_if(on_plane),
             parameter(&Terrain::file, "file",
                       "file of the terrain; profile: CSV file with the columns "
                       "distance_m,terrain_elevation_m[,surface_elevation_m]; dem: GeoTIFF or ESRI ASCII grid",

@@ -64,6 +64,14 @@ struct Condition {
   std::function<bool(const Case&, const Section&)> holds = nullptr;
 };
 
+// Condition that the member of a key has a value; `subject`: the key in the text.
+template <class Section, class T>
+Condition<Section> if_is(T Section::*member, std::type_identity_t<T> value, const std::string& subject,
+                         const std::string& key) {
+  return {"when " + subject + " is " + Value<T>::write(value, {}, {}), key,
+          [member, value](const Case&, const Section& section) { return section.*member == value; }};
+}
+
 template <class Section>
 class Parameter {
  public:

@@ -102,6 +102,8 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
   const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape", "bed.law"};
   const std::string noise = "[initial]\nnoise = 0.1\n", splitting = "[mechanics]\nsplit_stretched = true\n";
+  const std::string filtered = "[mechanics]\ntransfer = \"fmpm\"\nfmpm_interval = 0.1\n";
+  const std::string plane = changed({{"type = \"flat\"", "type = \"plane\""}});
   const std::string columns = "[band]\nthickness = 0.5\n", growth = "growth = \"inertial\"\n";
   std::map<std::string, bool> in_force;  // whether the default of a key has an effect in one of the cases
   std::string of_surface = valid_case_on_dem;
@@ -115,8 +117,8 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
   const std::string record = "[report]\nforce_record = \"force.csv\"\nforce_periods = [10.0, 200.0]\n";
   for (const std::string& text :
        {valid_case + record, valid_case + wall + ice + "x_min = 50.0\n", valid_case + noise, valid_case + splitting,
-        valid_case + bed, valid_case + columns, valid_case + columns + growth, valid_case_on_dem, of_surface, resting,
-        valid_case_on_dem + ice + "outline = \"release.geojson\"\n",
+        valid_case + filtered, plane, valid_case + bed, valid_case + columns, valid_case + columns + growth,
+        valid_case_on_dem, of_surface, resting, valid_case_on_dem + ice + "outline = \"release.geojson\"\n",
         valid_case_on_dem + bed + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = without_marks(resolved_toml(found, "inputs"));
@@ -126,6 +128,7 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
         const std::string key = table->name + "." + entry.rule->key;
         const bool is_given = (key == "initial.noise" && text.find(noise) != std::string::npos) ||
                               (key == "mechanics.split_stretched" && text.find(splitting) != std::string::npos) ||
+                              (key == "mechanics.transfer" && text.find(filtered) != std::string::npos) ||
                               (key == "band.growth" && text.find(growth) != std::string::npos) ||
                               (key == "report.force_record" && text.find(record) != std::string::npos);
         if (entry.default_text.empty() || given.count(key) > 0 || is_given || names.empty()) {
