@@ -59,28 +59,6 @@ bool may_change(const std::string& given) {
   return false;
 }
 
-// Whether a case file may have the key or table. Others are left to the reading of the case, which suggests a name.
-bool is_known(const std::string& key) {
-  const auto is_part = [](const std::string& whole, const std::string& part) {
-    return (whole + ".").rfind(part + ".", 0) == 0;
-  };
-  for (const auto& table : tables()) {
-    std::string name = table->name;
-    if (table->is_named() && is_part(key, name)) {
-      name = key.substr(0, key.find('.', name.size() + 1));  // with the name of the user
-    }
-    if (is_part(name, key)) {
-      return true;
-    }
-    for (const Entry& entry : table->entries()) {
-      if (is_part(key, name + "." + entry.rule->key)) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 bool changes_no_run(const std::string& key) { return key == "case.title" || key.rfind("report.", 0) == 0; }
 
 // Value in the form of the resolved case.
@@ -175,7 +153,7 @@ void require_changeable(const std::vector<std::string>& sets) {
   std::string fixed;
   for (const std::string& set : sets) {
     const std::string key = parse_override(set).key;
-    if (!may_change(key) && is_known(key)) {
+    if (!may_change(key)) {
       fixed += (fixed.empty() ? "" : ", ") + key;
     }
   }

@@ -26,7 +26,7 @@ std::vector<std::string> differences(const std::string& now, const std::string& 
 std::set<std::string> keys_of(const std::vector<std::string>& sets);
 
 // Throws UserError if a `--set` text names a key that cannot be changed on resume: one that determines the initial
-// state, the grid, the ground, the records, or laws with stored state. Unknown keys are left to read_case.
+// state, the grid, the ground, the records, or laws with stored state. read_case refuses unknown keys before.
 void require_changeable(const std::vector<std::string>& sets);
 
 // List of the changeable keys as text.

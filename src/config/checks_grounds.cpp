@@ -69,26 +69,20 @@ void check_map(const Case& checked, const Substrate& substrate, const std::strin
                     key);
 }
 
-// Checks for strips that overlap, or leave a gap too narrow for the grid.
+// Checks for strips that overlap.
 void check_neighbours(const Case& checked, Reading& reading) {
   const std::vector<Strip> strips = strips_of(checked);
   for (std::size_t k = 1; k < strips.size(); ++k) {
     const Strip &one = strips[k - 1], &other = strips[k];
     const std::string to = "substrate." + one.name + ".x_max", from = "substrate." + other.name + ".x_min";
-    if (!reading.are_valid({to, from, "substrate." + one.name, "substrate." + other.name, "grid.cell"})) {
+    if (!reading.are_valid({to, from, "substrate." + one.name, "substrate." + other.name})) {
       continue;
     }
-    const double gap = other.from - one.to;
     reading.refuse_if(
-        gap < 0.0, {from, to},
+        other.from < one.to, {from, to},
         "the substrates {} and {} overlap: {} is {} m, and {} is {} m; a place has one substrate. End the "
         "one where the other begins.",
         one.name, other.name, from, other.from, to, one.to);
-    reading.refuse_if(
-        gap > 0.0 && gap < checked.grid.cell, {from, to},
-        "between the substrates {} and {} there is a gap of {:g} m, less than a cell of the grid: {} is {} "
-        "m, and {} is {} m. Let them meet, or leave a gap of at least {} m.",
-        one.name, other.name, gap, to, one.to, from, other.from, checked.grid.cell);
   }
 }
 

@@ -60,10 +60,12 @@ using Tables = std::vector<std::unique_ptr<TableDeclaration>>;
 // Every table of the case file, [case] first.
 const Tables& tables();
 
-// Parts of tables(): parameters_run.cpp, parameters_material.cpp, parameters_bodies.cpp and parameters_model.cpp. The
-// last includes those of parameters_basal.cpp.
+// Titles of the tables that have a parameter with this key.
+std::vector<std::string> tables_with(const std::string& key);
+
+// Parts of tables(): parameters_run.cpp, parameters_bodies.cpp and parameters_model.cpp. The last includes those of
+// parameters_basal.cpp.
 void declare_run(Tables& tables);
-void declare_material(Tables& tables);
 void declare_bodies(Tables& tables);
 void declare_model(Tables& tables);
 void declare_basal(Tables& tables);

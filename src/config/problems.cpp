@@ -53,8 +53,8 @@ char plain_letter(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
-}  // namespace
-
+// Edit distance of two words (insert, delete, replace, swap of adjacent letters); ignores letter case, and '-' against
+// '_'.
 std::size_t edit_distance(const std::string& first, const std::string& second) {
   const std::size_t columns = second.size() + 1;
   std::vector<std::size_t> distance((first.size() + 1) * columns);
@@ -75,6 +75,8 @@ std::size_t edit_distance(const std::string& first, const std::string& second) {
   }
   return distance.back();
 }
+
+}  // namespace
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;

@@ -34,10 +34,6 @@ class Problems {
   std::vector<Problem> found_;
 };
 
-// Edit distance of two words (insert, delete, replace, swap of adjacent letters); ignores letter case, and '-' against
-// '_'.
-std::size_t edit_distance(const std::string& first, const std::string& second);
-
 // Candidate with the smallest edit distance, if it is a likely misspelling; empty otherwise.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 

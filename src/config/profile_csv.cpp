@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -74,24 +73,12 @@ class ProfileReader {
   }
 
   void read_header(const Fields& fields) {
-    if (fields.size() == 1 && fields.front().find('\t') != std::string::npos) {
-      fail(fmt::format("the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' {}",
-                       shell_quote(file_)));
-    }
-    const bool is_binary = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
-      return std::any_of(field.begin(), field.end(), [](unsigned char sign) { return std::iscntrl(sign) != 0; });
-    });
-    if (is_binary) {
-      fail(
-          "this is not a text file; allowed: columns separated by commas under the header "
-          "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\"");
-    }
     const bool is_known =
         (fields.size() == 2 || fields.size() == 3) && std::equal(fields.begin(), fields.end(), all_columns.begin());
     if (!is_known) {
       fail(
           fmt::format("the header is '{}'; allowed: distance_m,terrain_elevation_m[,surface_elevation_m], separated by "
-                      "commas",
+                      "commas. A DEM is read with terrain.type = \"dem\"",
                       shown(fmt::format("{}", fmt::join(fields, ",")))));
     }
     columns_ = fields.size();

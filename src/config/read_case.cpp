@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -58,16 +57,10 @@ void report_unknown_tables(const toml::table& root, Reading& reading) {
     if (top.count(word) > 0) {
       continue;
     }
-    std::string homes;
-    for (const auto& table : tables()) {
-      for (const Entry& entry : table->entries()) {
-        if (entry.rule->key == word && !node.is_table()) {
-          homes += (homes.empty() ? "" : " or ") + table->title();
-        }
-      }
-    }
+    const std::vector<std::string> homes = node.is_table() ? std::vector<std::string>{} : tables_with(word);
     const std::vector<std::string> known(top.begin(), top.end());
-    const std::string hint = homes.empty() ? did_you_mean(word, known) : "; it belongs in " + homes + ".";
+    const std::string hint =
+        homes.empty() ? did_you_mean(word, known) : fmt::format("; it belongs in {}.", fmt::join(homes, " or "));
     reading.problems.add(reading.location_of(word, key.source()),
                          fmt::format("{} is not known{} Allowed: {}.",
                                      node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table",

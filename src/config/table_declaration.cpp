@@ -21,19 +21,6 @@ std::vector<std::string> tables_inside(const std::string& dotted) {
   return result;
 }
 
-// Other tables that have a parameter with this key.
-std::vector<std::string> tables_with(const std::string& key, const std::string& dotted) {
-  std::vector<std::string> result;
-  for (const auto& table : tables()) {
-    for (const Entry& entry : table->entries()) {
-      if (entry.rule->key == key && table->name != dotted) {
-        result.push_back(table->title());
-      }
-    }
-  }
-  return result;
-}
-
 bool is_plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
     return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
@@ -47,12 +34,23 @@ const Tables& tables() {
   static const Tables all = [] {
     Tables result;
     declare_run(result);
-    declare_material(result);
     declare_bodies(result);
     declare_model(result);
     return result;
   }();
   return all;
+}
+
+std::vector<std::string> tables_with(const std::string& key) {
+  std::vector<std::string> result;
+  for (const auto& table : tables()) {
+    for (const Entry& entry : table->entries()) {
+      if (entry.rule->key == key) {
+        result.push_back(table->title());
+      }
+    }
+  }
+  return result;
 }
 
 const toml::node* find_node(const toml::table& root, const std::string& dotted) {
@@ -87,7 +85,7 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
       continue;
     }
     const std::string whole = join(dotted, word);
-    const std::vector<std::string> elsewhere = tables_with(word, dotted);
+    const std::vector<std::string> elsewhere = tables_with(word);
     const std::string hint = elsewhere.empty() ? did_you_mean(word, allowed)
                                                : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
     reading.problems.add(reading.location_of(whole, key.source()),

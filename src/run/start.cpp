@@ -69,7 +69,6 @@ struct Continuation {
 };
 
 Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
-  config::require_changeable(sets);
   Continuation next{{}, io::read_file(folder / "case.toml"), std::move(facts)};
   try {
     next.parameters = config::read_case(folder, sets);
@@ -77,6 +76,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
     report_changed_copy(folder, next.earlier.inputs, error.what());
     throw;
   }
+  config::require_changeable(sets);
   next.earlier_end = next.parameters.time.end;
   if (!sets.empty()) {
     const config::Case before = config::read_case(folder);

@@ -110,7 +110,7 @@ a profile with semicolons
   type = "flat"|elevation = 0.0 -> type = "profile"|file = "profile.csv"
   profile.csv: distance_m;terrain_elevation_m|0;0|20;0|
     17:8: terrain.file: {case}/profile.csv:1: the header is 'distance_m;terrain_elevation_m'; allowed:
-    distance_m,terrain_elevation_m[,surface_elevation_m], separated by commas.
+    distance_m,terrain_elevation_m[,surface_elevation_m], separated by commas. A DEM is read with terrain.type = "dem".
 """
 # Messages that tests/cpp/config does not compare as a whole.
 FURTHER = """

@@ -236,14 +236,6 @@ TEST(CaseChanges, AreLimitedToKeysThatEveryStepReads) {
   }
 }
 
-TEST(CaseChanges, LeaveMisspeltKeysToTheReadingOfTheCase) {
-  for (const char* set : {"timeless.end=3", "grid.leavings=stop", "substrate.ice.x_mim=3",
-                          "heat.boundary.x_mni=insulated", "grid.cel.x=3"}) {
-    EXPECT_NO_THROW(require_changeable({set})) << set;
-    EXPECT_THROW(case_from_text(valid_case, {set}), UserError) << set;
-  }
-}
-
 TEST(CoarseChanges, DoubleCellsFixedStepsAndGivenMapCells) {
   Case parameters;
   parameters.grid.cell = 5.0;

@@ -42,6 +42,7 @@ TEST(Profile, GroundIsLinearBetweenRowsAndExtrapolatedBeyondThem) {
 TEST(Profile, MistakesNameTheLine) {
   const std::string header = "distance_m,terrain_elevation_m,surface_elevation_m\n";
   const std::string headers = "allowed: distance_m,terrain_elevation_m[,surface_elevation_m]";
+  const std::string separated = ", separated by commas. A DEM is read with terrain.type = \"dem\".";
   const std::string number = "'; allowed: a finite number with a decimal point.";
   const std::string folds =
       "; allowed: strictly increasing distances. Sort the rows, and leave out overhangs and "
@@ -49,12 +50,10 @@ TEST(Profile, MistakesNameTheLine) {
   const std::vector<std::pair<std::string, std::string>> mistakes{
       {"", "1: the file holds no header; " + headers + "."},
       {"# only a comment\n", "1: the file holds no header; " + headers + "."},
-      {"# profile\nx,z\n", "2: the header is 'x,z'; " + headers + ", separated by commas."},
+      {"# profile\nx,z\n", "2: the header is 'x,z'; " + headers + separated},
       {"distance_m\tterrain_elevation_m\n0\t1\n",
-       "1: the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' FOLDER/profile.csv."},
-      {std::string("II*\0\10\0,\0\n", 9),
-       "1: this is not a text file; allowed: columns separated by commas under the header "
-       "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\"."},
+       "1: the header is 'distance_m?terrain_elevation_m'; " + headers + separated},
+      {std::string("II*\0\10\0,\0\n", 9), "1: the header is 'II*???,?'; " + headers + separated},
       {header + "0,0,0\n", "2: the profile has 1 rows; a profile needs at least 2."},
       {header + "0,0\n", "2: the row has 2 fields; the header has 3."},
       {header + "0,0,0\n1,1m,2\n", "3: terrain_elevation_m is '1m" + number},
