@@ -193,23 +193,18 @@ std::optional<toml::table> parse_value(const Override& override, Reading& readin
   return std::nullopt;
 }
 
-// True if `--set` specifies all keys of this table that are always required, such as body.NAME.material; for a table
-// without such keys, one key that has no default and does not depend on others, such as probe.NAME.point.
+// True if `--set` specifies a key that is always required, such as body.NAME.material; for a table without such keys,
+// one that has no default and does not depend on others, such as probe.NAME.point.
 bool defines_table(const TableDeclaration& table, const std::string& own_name, const Reading& reading) {
-  const auto is_given = [&](const Entry& entry) {
-    const std::string key = fmt::format("{}.{}.{}", table.name, own_name, entry.rule->key);
-    return std::any_of(reading.overrides.begin(), reading.overrides.end(),
-                       [&](const Override& override) { return override.key == key; });
-  };
   const std::vector<Entry> entries = table.entries();
   const auto is_needed = [](const Entry& entry) { return entry.required == "always"; };
-  if (std::any_of(entries.begin(), entries.end(), is_needed)) {
-    return std::all_of(entries.begin(), entries.end(),
-                       [&](const Entry& entry) { return !is_needed(entry) || is_given(entry); });
-  }
+  const bool has_needed = std::any_of(entries.begin(), entries.end(), is_needed);
   return std::any_of(entries.begin(), entries.end(), [&](const Entry& entry) {
-    const bool defines = !entry.otherwise.empty() || (!entry.required.empty() && entry.only.empty());
-    return defines && is_given(entry);
+    const bool has_no_default = entry.default_text.empty() && (!entry.otherwise.empty() || entry.only.empty());
+    const std::string key = fmt::format("{}.{}.{}", table.name, own_name, entry.rule->key);
+    return (has_needed ? is_needed(entry) : has_no_default) &&
+           std::any_of(reading.overrides.begin(), reading.overrides.end(),
+                       [&](const Override& override) { return override.key == key; });
   });
 }
 

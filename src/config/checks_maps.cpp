@@ -105,13 +105,7 @@ void check_line(const Case& checked, const std::string& key, const std::string& 
                     key);
 }
 
-void check_probe(const Case& checked, const Probe& probe, const std::string& table, Reading& reading) {
-  if (checked.general.dimension != 3) {
-    reading.report_misfit(
-        {table, "case.dimension"},
-        fmt::format("[{}] has a meaning only in three dimensions, and case.dimension is 2. Remove it.", table));
-    return;
-  }
+void check_probe(const Probe& probe, const std::string& table, Reading& reading) {
   reading.refuse_if(!probe.line.empty() && reading.is_given(table + ".point"), {table + ".line", table + ".point"},
                     "{0}.point and {0}.line are both given; allowed: one of them, since a probe is a place or a cross "
                     "section. Remove one, or write two probes.",
@@ -140,7 +134,7 @@ void check_maps(const Case& checked, Reading& reading) {
   }
   check_line(checked, "maps.path", checked.maps.path, reading);
   for (const auto& [name, probe] : checked.probes) {
-    check_probe(checked, probe, "probe." + name, reading);
+    check_probe(probe, "probe." + name, reading);
     check_line(checked, "probe." + name + ".line", probe.line, reading);
   }
 }

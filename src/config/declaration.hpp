@@ -51,8 +51,6 @@ class TableDeclaration {
   virtual void write(const Case& source, const WriteContext& context, std::string& out) const = 0;
   // Adds the keys that have a meaning in the case and contain numbers.
   virtual void collect_numbers(const Case& source, std::vector<KeyNumbers>& found) const = 0;
-  // Names of the instances of a named table in the case.
-  [[nodiscard]] virtual std::vector<std::string> names(const Case& source) const = 0;
 };
 
 using Tables = std::vector<std::unique_ptr<TableDeclaration>>;

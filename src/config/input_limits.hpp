@@ -16,7 +16,6 @@ inline constexpr double largest_table_file = 100e6;      // bytes, for a profile
 inline constexpr double most_raster_points = 4e8;        // read from one raster: 20 km x 20 km at 1 m
 inline constexpr std::size_t most_features = 100000;     // of a vector file
 inline constexpr std::size_t most_corners = 5000000;     // of all its polygons or lines
-inline constexpr std::size_t most_problems_listed = 50;  // of a case at once
 inline constexpr std::size_t most_letters_quoted = 200;  // of an invalid text
 
 // Throws UserError if a file has more bytes; `advice` ends the message: "Is it the right file?"

@@ -101,11 +101,11 @@ Parameters<Section> friction_parameters(const std::string& prefix) {
   for (const LawNumber& of : law_numbers<physics::basal::FrictionLaw>()) {
     auto parameter = law_parameter<Section>(of, &GroundStrength::friction, "friction");
     if (of.number->is_needed) {
-      parameter = std::move(parameter).required_if(
-          "when there is a terrain" + (of.of_all ? "" : " and " + of.chosen(prefix + "friction")),
-          [of](const Case& whole, const Section& section) {
-            return whole.terrain.kind != TerrainKind::none && whole.mechanics.enabled && of.is_of(section.friction);
-          });
+      parameter.requirement = {"when there is a terrain" + (of.of_all ? "" : " and " + of.chosen(prefix + "friction")),
+                               "friction", [of](const Case& whole, const Section& section) {
+                                 return whole.terrain.kind != TerrainKind::none && whole.mechanics.enabled &&
+                                        of.is_of(section.friction);
+                               }};
     }
     result.push_back(std::move(parameter));
   }
@@ -119,12 +119,11 @@ Parameters<Section> cohesion_parameters(const std::string& prefix) {
   for (const LawNumber& of : law_numbers<physics::basal::CohesionLaw>()) {
     auto parameter = law_parameter<Section>(of, &GroundStrength::cohesion_law, "cohesion_law");
     if (of.number->is_needed) {
-      parameter = std::move(parameter).required_if(
-          "when " + prefix + "cohesion > 0 and " + of.chosen(prefix + "cohesion_law"),
-          [of](const Case& whole, const Section& section) {
-            return whole.terrain.kind != TerrainKind::none && of.is_of(section.cohesion_law) &&
-                   section.numbers(physics::basal::initial_cohesion) > 0.0;
-          });
+      parameter.requirement = {"when " + prefix + "cohesion > 0 and " + of.chosen(prefix + "cohesion_law"),
+                               "cohesion_law", [of](const Case& whole, const Section& section) {
+                                 return whole.terrain.kind != TerrainKind::none && of.is_of(section.cohesion_law) &&
+                                        section.numbers(physics::basal::initial_cohesion) > 0.0;
+                               }};
     }
     (of.of_all ? result : of_some).push_back(std::move(parameter));
   }

@@ -133,10 +133,10 @@ void declare_material(Tables& tables) {
            &Material::softening_slip, "softening_slip", "m", above(0),
            "slip s_c across a rupture surface over which the softening part of cohesion and friction decreases to "
            "1/e, for any cell size: eps_c = s_c/(sqrt(3) grid.cell)")
-           .required_if("when cohesion or friction softens and softening_strain is not given",
-                        [](const Case&, const Material& material) {
-                          return softens(material) && !(material.softening_strain > 0.0);
-                        }),
+           .required_if({"when cohesion or friction softens and softening_strain is not given", "softening_strain",
+                         [](const Case&, const Material& material) {
+                           return softens(material) && !(material.softening_strain > 0.0);
+                         }}),
        parameter(&Material::tension_cutoff, "tension_cutoff", "Pa", {.low = 0, .infinity_allowed = true},
                  "maximum tensile stress in any direction; inf: limited by cohesion and friction angle alone"),
        parameter(&Material::gaps_close_first, "gaps_close_first",
@@ -175,12 +175,12 @@ void declare_body(Tables& tables) {
            .required_if(polygon),
        parameter(&Body::release, "release", "file of the release polygons: Shapefile, GeoPackage or GeoJSON",
                  {.is_path = true})
-           .required_if("when the shape is \"release\" and thickness is a number or an attribute",
-                        [](const Case&, const Body& body) {
-                          const bool by_polygons = body.thickness.from == MapValue::From::number ||
-                                                   body.thickness.from == MapValue::From::attribute;
-                          return body.shape == BodyShape::release && by_polygons;
-                        })
+           .required_if({"when the shape is \"release\" and thickness is a number or an attribute", "thickness",
+                         [](const Case&, const Body& body) {
+                           const bool by_polygons = body.thickness.from == MapValue::From::number ||
+                                                    body.thickness.from == MapValue::From::attribute;
+                           return body.shape == BodyShape::release && by_polygons;
+                         }})
            .only_if(release),
        parameter(&Body::polygons, "polygons", "names of the polygons that form the body; []: all polygons of the file")
            .only_if(polygons),

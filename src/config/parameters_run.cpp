@@ -91,8 +91,8 @@ void declare_terrain(Tables& tables) {
                       "file of the terrain; profile: CSV file with the columns "
                       "distance_m,terrain_elevation_m[,surface_elevation_m]; dem: GeoTIFF or ESRI ASCII grid",
                       {.is_path = true})
-                .required_if("when terrain.type is \"profile\" or \"dem\"",
-                             [](const Case& whole, const Terrain&) { return has_terrain(whole); }),
+                .required_if({"when terrain.type is \"profile\" or \"dem\"", "type",
+                              [](const Case& whole, const Terrain&) { return has_terrain(whole); }}),
             parameter(&Terrain::extend, "extend",
                       "true: the profile continues with its last gradients to the ends of a longer domain")
                 .only_if(no_dem)},
@@ -140,12 +140,13 @@ void declare_output(Tables& tables) {
           "A point or cross section with a name of your choice, in 3D. Flow thickness and speed are recorded there, "
           "and at a cross section also flow area and discharge",
           &Case::probes,
-          {parameter(&Probe::point, "point", "m", {}, "horizontal coordinates of the probe", {.horizontal = true})
-               .required_if("when line is not given",
-                            [](const Case& whole, const Probe& probe) {
-                              return whole.general.dimension == 3 && probe.line.empty();
-                            }),
-           parameter(&Probe::line, "line", "file of the line of the cross section", {.is_path = true})
+          {parameter(&Probe::point, "point", "m", {}, "horizontal coordinates of the probe",
+                     {.dimension = 3, .horizontal = true})
+               .required_if({"when line is not given", "line",
+                             [](const Case& whole, const Probe& probe) {
+                               return whole.general.dimension == 3 && probe.line.empty();
+                             }}),
+           parameter(&Probe::line, "line", "file of the line of the cross section", {.dimension = 3, .is_path = true})
                .otherwise("the probe is a point")});
   declare(
       tables, "report", "Figures and comparison with reported values", &Case::report,

@@ -27,10 +27,6 @@ class Warnings {
   void add(const std::string& key, const Value& value, const std::string& unit, const std::string& text) {
     found_.push_back(fmt::format("{}: {} is {}{}: {}", location_of(case_, key), key, value, unit, text));
   }
-  // Adds a warning about a key that is not given.
-  void add_absent(const std::string& key, const std::string& text) {
-    found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, text));
-  }
   // Adds a warning without a key.
   void add(std::string text) { found_.push_back(std::move(text)); }
   [[nodiscard]] std::vector<std::string> release() { return std::move(found_); }
@@ -97,12 +93,11 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
   const bool has_effect = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
                           (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
   if (has_basal_friction && has_effect && !parameters.band.thickness.is_given()) {
-    warnings.add_absent(
-        "band.thickness",
-        fmt::format(
-            "friction then heats the lowest cells as a whole, {:g} m thick, which barely warm or melt. Set the "
-            "thickness of the shear band: typical values are 0.01 to 2 m. Without melting, set heat.enabled = false.",
-            parameters.grid.cell));
+    warnings.add(fmt::format(
+        "{}: band.thickness is not given: friction then heats the lowest cells as a whole, {:g} m thick, which barely "
+        "warm or melt. Set the "
+        "thickness of the shear band: typical values are 0.01 to 2 m. Without melting, set heat.enabled = false.",
+        parameters.file, parameters.grid.cell));
   }
 }
 

@@ -34,12 +34,8 @@ void Problems::raise_if_any() const {
                                            std::tie(b.location.source, b.location.line, b.location.column);
   });
   std::string text;
-  const std::size_t specified = std::min(sorted.size(), most_problems_listed);
-  for (std::size_t k = 0; k < specified; ++k) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", sorted[k].location.text(), sorted[k].message);
-  }
-  if (specified < sorted.size()) {
-    text += fmt::format("\nand {} more problems.", sorted.size() - specified);
+  for (const Problem& each : sorted) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", each.location.text(), each.message);
   }
   throw UserError(text);
 }

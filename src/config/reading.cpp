@@ -76,12 +76,7 @@ Location Reading::location_of(const std::string& dotted) const {
 }
 
 bool Reading::are_valid(std::initializer_list<std::string> dotted) const {
-  for (const std::string& key : dotted) {
-    if (invalid_keys.count(key) > 0) {
-      return false;
-    }
-  }
-  return true;
+  return std::none_of(dotted.begin(), dotted.end(), [this](const auto& key) { return invalid_keys.count(key) > 0; });
 }
 
 void Reading::report(const std::string& dotted, std::string message) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "config/case_layers.hpp"
 
@@ -23,8 +24,7 @@ std::vector<std::string> tables_inside(const std::string& dotted) {
 
 bool is_plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
-           letter == '_' || letter == '-';
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-';
   });
 }
 
@@ -51,16 +51,6 @@ std::vector<std::string> tables_with(const std::string& key) {
     }
   }
   return result;
-}
-
-const toml::node* find_node(const toml::table& root, const std::string& dotted) {
-  const std::size_t dot = dotted.find('.');
-  const toml::node* node = root.get(dotted.substr(0, dot));
-  if (dot == std::string::npos || node == nullptr) {
-    return node;
-  }
-  // A parent that is not a table is reported when it is read itself.
-  return node->is_table() ? find_node(*node->as_table(), dotted.substr(dot + 1)) : nullptr;
 }
 
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading) {

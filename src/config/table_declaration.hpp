@@ -17,8 +17,6 @@ namespace thawslide::config {
 // "[band]" of "band", and the key as a path below it.
 inline std::string join(const std::string& table, const std::string& key) { return table + "." + key; }
 
-// Node of a dotted table name; nullptr if the file has none.
-const toml::node* find_node(const toml::table& root, const std::string& dotted);
 // Records the location of a table; returns whether it is one.
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading);
 // Reports unknown keys of a table.
@@ -102,15 +100,11 @@ class Parameter {
 
   // No default: the key must be given.
   Parameter required() && {
-    return std::move(*this).required_if("always", [](const Case&, const Section&) { return true; });
+    return std::move(*this).required_if({"always", {}, [](const Case&, const Section&) { return true; }});
   }
   // No default: the key must be given when the condition holds.
-  Parameter required_if(std::string when, Holds holds) && {
-    requirement = {std::move(when), {}, std::move(holds)};
-    return std::move(*this);
-  }
-  Parameter required_if(const Condition<Section>& condition) && {
-    requirement = condition;
+  Parameter required_if(Condition<Section> condition) && {
+    requirement = std::move(condition);
     return std::move(*this);
   }
   // Text of the default of an absent key, and a function that sets it (null: the member's initializer applies).
@@ -229,7 +223,7 @@ class BoundTable : public TableDeclaration {
   }
 
   void read(const toml::table& root, Case& result, Reading& reading) const override {
-    const toml::node* node = find_node(root, name);
+    const toml::node* node = root.at_path(name).node();  // a parent that is no table is reported when it is read itself
     if (node == nullptr) {
       return;
     }
@@ -265,16 +259,6 @@ class BoundTable : public TableDeclaration {
         }
       }
     });
-  }
-
-  [[nodiscard]] std::vector<std::string> names(const Case& source) const override {
-    std::vector<std::string> names;
-    if constexpr (has_names) {
-      for (const auto& [own_name, section] : source.*member_) {
-        names.push_back(own_name);
-      }
-    }
-    return names;
   }
 
  private:

@@ -36,13 +36,6 @@ def test_a_key_of_many_parts_is_refused(thawslide: Program, tmp_path: Path, text
     )
 
 
-def test_many_problems_are_not_all_reported(thawslide: Program, small_case: Path) -> None:
-    file = small_case / "case.toml"
-    file.write_text(file.read_text() + "".join(f"wrong{k} = 1\n" for k in range(80)))
-    message = thawslide.error("check", file, quiet=True).splitlines()
-    assert len(message) == 51 and message[-1] == "and 30 more problems."
-
-
 def test_long_texts_and_control_characters_are_not_repeated(thawslide: Program, small_case: Path) -> None:
     message = thawslide.error("check", small_case, "--set", 'time.end="\\u001b[2J' + "x" * 100_000 + '"', quiet=True)
     assert "\x1b" not in message and 'time.end is the text "?[2J' in message and 'xxx..."; allowed: a number' in message

@@ -97,6 +97,13 @@ TEST(CaseFile, UsesBandColumnsIfThereIsABase) {
   }
 }
 
+// First table of a kind with names in the case, such as "body.block"; empty if there is none.
+std::string first_table(const Case& parameters, const std::string& kind) {
+  const auto found = parameters.locations.lower_bound(kind + ".");
+  const bool is_there = found != parameters.locations.end() && found->first.starts_with(kind + ".");
+  return is_there ? found->first.substr(0, found->first.find('.', kind.size() + 1)) : "";
+}
+
 TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
   write_map_files();
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
@@ -123,7 +130,7 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
     const Case found = case_from_text(text);
     const std::string before = without_marks(resolved_toml(found, "inputs"));
     for (const auto& table : tables()) {
-      const std::vector<std::string> names = table->is_named() ? table->names(found) : std::vector<std::string>{""};
+      const std::string name = table->is_named() ? first_table(found, table->name) : table->name;
       for (const Entry& entry : table->entries()) {
         const std::string key = table->name + "." + entry.rule->key;
         const bool is_given = (key == "initial.noise" && text.find(noise) != std::string::npos) ||
@@ -131,11 +138,10 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
                               (key == "mechanics.transfer" && text.find(filtered) != std::string::npos) ||
                               (key == "band.growth" && text.find(growth) != std::string::npos) ||
                               (key == "report.force_record" && text.find(record) != std::string::npos);
-        if (entry.default_text.empty() || given.count(key) > 0 || is_given || names.empty()) {
+        if (entry.default_text.empty() || given.count(key) > 0 || is_given || name.empty()) {
           continue;
         }
-        const std::string own_name = names[0].empty() ? "" : "." + names[0];
-        const std::string set = table->name + own_name + "." + entry.rule->key + "=" + entry.default_text;
+        const std::string set = name + "." + entry.rule->key + "=" + entry.default_text;
         // The reference describes points by two numbers.
         const std::string error = error_of_text(text, {set});
         const bool has_meaning = error.find("has a meaning only") == std::string::npos &&
