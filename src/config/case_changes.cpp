@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <sstream>
@@ -51,12 +52,9 @@ std::string as_basal_key(const std::string& key) {
 
 bool may_change(const std::string& given) {
   const std::string key = as_basal_key(given);
-  for (const std::string_view each : changeable) {
-    if (each.back() == '.' ? key.rfind(each, 0) == 0 : key == each) {
-      return true;
-    }
-  }
-  return false;
+  return std::any_of(changeable.begin(), changeable.end(), [&key](std::string_view each) {
+    return each.back() == '.' ? key.starts_with(each) : key == each;
+  });
 }
 
 bool changes_no_run(const std::string& key) { return key == "case.title" || key.rfind("report.", 0) == 0; }

@@ -164,20 +164,16 @@ void check_contact(const Case& checked, Reading& reading) {
       "those that move as one by [contact_pair.NAME] with contact = \"bonded\".",
       key, layers.count, most, is_staged ? " with a body.NAME.release_time" : "");
   // Each of these is reported, although the first report marks `key` as invalid.
-  if (layers.count > 1 && reading.are_valid({"band.model"}) && has_band_columns(checked)) {
-    reading.report_misfit(
-        {key, "band.model"},
-        fmt::format("{}: frictional contact between bodies and band.model = \"columns\" exclude each other. Set "
-                    "contact.between_bodies = \"bonded\", or band.model = \"scaled\".",
-                    key));
-  }
-  if (layers.count > 1 && reading.are_valid({"bed.law"}) && checked.bed.law != BedLaw::none) {
-    reading.report_misfit(
-        {key, "bed.law"},
-        fmt::format("{}: frictional contact between bodies and an erodible bed (bed.law) exclude each other. Set "
-                    "contact.between_bodies = \"bonded\", or remove [bed].",
-                    key));
-  }
+  const auto exclude = [&](bool is_chosen, const char* other, const char* what, const char* remedy) {
+    if (layers.count > 1 && reading.are_valid({other}) && is_chosen) {
+      reading.report_misfit({key, other},
+                            fmt::format("{}: frictional contact between bodies and {} exclude each other. Set "
+                                        "contact.between_bodies = \"bonded\", or {}.",
+                                        key, what, remedy));
+    }
+  };
+  exclude(has_band_columns(checked), "band.model", "band.model = \"columns\"", "band.model = \"scaled\"");
+  exclude(checked.bed.law != BedLaw::none, "bed.law", "an erodible bed (bed.law)", "remove [bed]");
 }
 
 // True if some bodies have frictional contact; false while the case has problems.
@@ -231,16 +227,7 @@ void check_exclusions(const Case& checked, Reading& reading) {
 
 void check_width(const Case& checked, Reading& reading) {
   const std::string key = "case.width";
-  if (!reading.are_valid({key})) {
-    return;
-  }
-  if (checked.general.dimension == 3 && reading.is_given(key)) {  // [case] is read before its dimension is known
-    reading.report_misfit(
-        {key, "case.dimension"},
-        fmt::format("{} has a meaning only in two dimensions, and case.dimension is 3. Remove it.", key));
-    return;
-  }
-  if (!checked.general.width.varies()) {
+  if (!reading.are_valid({key}) || !checked.general.width.varies()) {
     return;
   }
   const struct {

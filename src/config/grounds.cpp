@@ -24,20 +24,6 @@ Laws law_named(const std::string& keyword, const LawNumbers& numbers) {
   return found;
 }
 
-}  // namespace
-
-physics::basal::FrictionLaw friction_of(const GroundStrength& ground) {
-  return law_named<physics::basal::FrictionLaw>(ground.friction, ground.numbers);
-}
-
-physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground) {
-  const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
-  return law_named<physics::basal::CohesionLaw>(
-      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::keyword, ground.numbers);
-}
-
-namespace {
-
 // Time at which ground loses its cohesion [s]; 0 if it does so by slip, or does not.
 double cohesion_loss_time(const GroundStrength& ground) {
   return std::visit(
@@ -52,6 +38,16 @@ double cohesion_loss_time(const GroundStrength& ground) {
 }
 
 }  // namespace
+
+physics::basal::FrictionLaw friction_of(const GroundStrength& ground) {
+  return law_named<physics::basal::FrictionLaw>(ground.friction, ground.numbers);
+}
+
+physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground) {
+  const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
+  return law_named<physics::basal::CohesionLaw>(
+      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::keyword, ground.numbers);
+}
 
 double last_scheduled_event(const Case& parameters) {
   double last = cohesion_loss_time(parameters.basal);

@@ -17,7 +17,6 @@ constexpr double least_strain_at_failure = 3e-6;  // cohesion over Young's modul
 constexpr double largest_coefficient = 1.5;
 constexpr double steepest_widening = 1.0;  // [m/m]; 27 degrees per side
 constexpr double warm = 0.0;               // [C]
-constexpr double most_steps = 1e9;
 
 class Warnings {
  public:
@@ -163,17 +162,6 @@ void warn_about_bodies(const Case& parameters, Warnings& warnings) {
   }
 }
 
-void warn_about_step(const Case& parameters, Warnings& warnings) {
-  const Time& time = parameters.time;
-  const double steps = time.end / time.step;
-  if (time.stepping == Stepping::fixed && steps > most_steps) {
-    warnings.add("time.step", time.step, " s",
-                 fmt::format("that is {} steps, from days to years of computing. `thawslide check` estimates the "
-                             "time and prints the limit of the step.",
-                             rounded_text(steps)));
-  }
-}
-
 void warn_about_output(const Case& parameters, Warnings& warnings) {
   const Time& time = parameters.time;
   const struct {
@@ -210,7 +198,6 @@ std::vector<std::string> implausible(const Case& parameters) {
   }
   warn_about_bed(parameters, warnings);
   warn_about_bodies(parameters, warnings);
-  warn_about_step(parameters, warnings);
   warn_about_output(parameters, warnings);
   warn_about_gaps(parameters, warnings);
   return warnings.release();

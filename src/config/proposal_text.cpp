@@ -34,7 +34,9 @@ std::string taper_text(const EdgeTaper& taper) {
 }
 
 // Corner of a domain.
-std::string corner_text(const Point& corner) { return Value<Point>::write(corner, {}, WriteContext{3, {}}); }
+std::string corner_text(const Point& corner, int dimension = 3) {
+  return Value<Point>::write(corner, {}, WriteContext{dimension, {}});
+}
 
 // Table [time], without a trailing empty line.
 std::string time_text(const Proposal& proposal) {
@@ -251,8 +253,8 @@ dimension = 2  # x is the distance along the line, y is up; masses, forces and e
 # The domain: the whole section. Its size costs nothing, as only cells near the slide take memory and time.
 [grid]
 cell = {cell}  # m; {across}
-min = [{min_x}, {min_y}]
-max = [{max_x}, {max_y}]
+min = {min}
+max = {max}
 leaving = "remove"  # what leaves the domain is removed, and its mass reported; "stop": it ends the run
 
 [terrain]
@@ -266,8 +268,7 @@ shape = "surface"  # between terrain_elevation_m and surface_elevation_m of the 
 {physics})",
       fmt::arg("title", quoted(title)), fmt::arg("time", time_text(proposal)),
       fmt::arg("cell", number_text(proposal.cell)), fmt::arg("across", cell_comment(proposal)),
-      fmt::arg("min_x", number_text(proposal.min[0])), fmt::arg("min_y", number_text(proposal.min[1])),
-      fmt::arg("max_x", number_text(proposal.max[0])), fmt::arg("max_y", number_text(proposal.max[1])),
+      fmt::arg("min", corner_text(proposal.min, 2)), fmt::arg("max", corner_text(proposal.max, 2)),
       fmt::arg("profile", quoted(profile_file)), fmt::arg("state", body_state_text(proposal)),
       fmt::arg("physics", physics_text(base)));
 }

@@ -75,6 +75,9 @@ std::string name_of(const fs::path& absolute_file) {
 }
 
 void read_tables(const toml::table& root, Case& result, Reading& reading) {
+  if (root.at_path("case.dimension").value<std::int64_t>() == 3) {  // keys of [case] depend on it
+    reading.dimension = 3;
+  }
   for (const auto& table : tables()) {
     table->read(root, result, reading);
     if (table->name == "case") {

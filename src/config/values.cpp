@@ -47,6 +47,50 @@ std::string array_text(const Elements& elements, const Text& text_of) {
 
 }  // namespace
 
+// Rules of numbers (rule.hpp).
+bool Range::contains(double value) const {
+  if (std::isnan(value) || (std::isinf(value) && !infinity_allowed)) {
+    return false;
+  }
+  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string Range::text() const {
+  const bool has_low = std::isfinite(low);
+  const bool has_high = std::isfinite(high);
+  std::string text = "any number";
+  if (has_low && has_high && low_open == high_open) {
+    text = fmt::format("between {} and {}, ends {}", plain_number(low), plain_number(high),
+                       low_open ? "excluded" : "included");
+  } else if (has_low && has_high) {
+    text = fmt::format("{} {} and {} {}", low_open ? ">" : ">=", plain_number(low),
+                       high_open ? "<" : "<=", plain_number(high));
+  } else if (has_low) {
+    text = fmt::format("{} {}", low_open ? ">" : ">=", plain_number(low));
+  } else if (has_high) {
+    text = fmt::format("{} {}", high_open ? "<" : "<=", plain_number(high));
+  }
+  return infinity_allowed ? text + ", or inf" : text;
+}
+
+bool Usual::is_specified() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return low > -infinity || high < infinity;
+}
+
+std::string Usual::text(const std::string& unit) const {
+  return is_specified() ? fmt::format("{:g} to {:g}{}{}{}{} (assumption)", low, high, unit.empty() ? "" : " ", unit,
+                                      *where == '\0' ? "" : " ", where)
+                        : "";
+}
+
+std::string plain_number(double value) { return fmt::format("{}", value); }
+
+std::string number_text(double value) {
+  const std::string text = plain_number(value);
+  return text.find_first_of(".enia") == std::string::npos ? text + ".0" : text;
+}
+
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char letter : text) {
@@ -222,16 +266,14 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
   if (!at.numbers(node, found, false)) {
     return false;
   }
-  if (at.rule.horizontal && found.size() != 2) {
-    return at.fail(node, fmt::format("is an array of {} numbers; allowed: 2 numbers, x and y", found.size()));
-  }
-  const auto dimension = at.rule.horizontal ? std::size_t{2} : static_cast<std::size_t>(at.reading.dimension);
-  if (dimension == 0 ? (found.size() != 2 && found.size() != 3) : found.size() != dimension) {
-    return at.fail(node, dimension == 0
-                             ? fmt::format("is an array of {} numbers; allowed: 2 or 3 numbers", found.size())
-                             : fmt::format("is an array of {} numbers; allowed: {} numbers, as case.dimension is {}{}",
-                                           found.size(), dimension, dimension,
-                                           found.size() == 2 * dimension ? ". Write decimal points, not commas" : ""));
+  const std::size_t size = found.size(),
+                    dimension = at.rule.horizontal ? 2U : static_cast<std::size_t>(at.reading.dimension);
+  if (dimension == 0 ? size != 2 && size != 3 : size != dimension) {
+    const std::string allowed = at.rule.horizontal ? "2 numbers, x and y"
+                                : dimension == 0   ? "2 or 3 numbers"
+                                                   : fmt::format("{0} numbers, as case.dimension is {0}", dimension);
+    return at.fail(node, fmt::format("is an array of {} numbers; allowed: {}{}", size, allowed,
+                                     size > 0 && size == 2 * dimension ? ". Write decimal points, not commas" : ""));
   }
   value = {found[0], found[1], found.size() > 2 ? found[2] : 0.0};
   return true;
