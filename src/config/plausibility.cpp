@@ -1,3 +1,4 @@
+// Values that are valid but probably unintended.
 #include <fmt/format.h>
 
 #include <algorithm>
