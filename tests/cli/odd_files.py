@@ -48,17 +48,17 @@ def thickness() -> Numbers:
 def raster(
     file: Path, values: Numbers, kind: str = "float64", bands: int = 1, crs: str | None = CRS,
     place: rasterio.Affine | None = None, nodata: float | None = None, scale: float = 1.0, offset: float = 0.0,
-    unit: str = "", driver: str = "GTiff",
+    unit: str = "", **stored: Any,
 ) -> Path:  # fmt: skip
-    """Write values, stored as (value - offset) / scale."""
+    """Write values as (value - offset) / scale; `stored`: creation options of GDAL."""
     place = place or rasterio.Affine(CELL, 0.0, WEST, 0.0, -CELL, SOUTH + ROWS * CELL)
     rows, columns = values.shape
     shape = {"width": columns, "height": rows, "count": bands, "dtype": kind, "nodata": nodata}
-    stored = (values - offset) / scale
-    stored = np.round(stored) if kind.startswith("int") else stored
-    with rasterio.open(file, "w", driver=driver, crs=crs, transform=place, **shape) as opened:
+    packed = (values - offset) / scale
+    packed = np.round(packed) if "int" in kind else packed
+    with rasterio.open(file, "w", **{"driver": "GTiff"} | stored, crs=crs, transform=place, **shape) as opened:
         for band in range(1, bands + 1):
-            opened.write(stored.astype(kind), band)
+            opened.write(packed.astype(kind), band)
         if (scale, offset) != (1.0, 0.0):
             opened.scales, opened.offsets = (scale,), (offset,)
         if unit:
@@ -70,6 +70,13 @@ def new_words(folder: Path, release: Path) -> list[object]:
     """Write the DEM; return the arguments of `thawslide` that create the case folder/slide."""
     words = ["new", folder / "slide", "--dem", raster(folder / "dem.tif", heights()), "--release", release]
     return words if release.suffix in (".tif", ".asc") else [*words, "--thickness", THICK]
+
+
+def at_points(file: Path, values: Numbers) -> Path:
+    """Write a raster whose values are those of points, at the centres of its cells."""
+    with rasterio.open(raster(file, values), "r+") as opened:
+        opened.update_tags(AREA_OR_POINT="Point")
+    return file
 
 
 def masked(file: Path, values: Numbers) -> Path:
@@ -134,6 +141,13 @@ def in_system(crs: str, factor: float = 1.0, unit: str = "") -> Callable[[Path, 
 # Rasters of lengths: of elevations as well as of thicknesses.
 RASTERS: dict[str, tuple[Callable[[Path, Numbers], Path], Expected]] = {
     "plain": (raster, FULL),
+    "bytes": (lambda file, values: raster(file, values, "uint16", scale=0.1), FULL),
+    "big-endian": (lambda file, values: raster(file, values, ENDIANNESS="BIG", BIGTIFF="YES"), FULL),
+    "tiles": (
+        lambda file, values: raster(file, values, tiled=True, blockxsize=16, blockysize=32, compress="lzw"),
+        FULL,
+    ),
+    "point": (at_points, FULL),
     "scale": (lambda file, values: raster(file, values, "int32", scale=0.01), FULL),
     "scale-and-offset": (lambda file, values: raster(file, values, "int32", scale=0.01, offset=-100.0), FULL),
     "feet": (lambda file, values: raster(file, values / 0.3048, unit="ft"), FULL),

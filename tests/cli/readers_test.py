@@ -12,7 +12,7 @@ import numpy as np
 import odd_files as odd
 import pytest
 import rasterio
-from conftest import Program, columns_of, sets
+from conftest import Program, columns_of, sets, with_profile
 
 from thawslide import Case, Simulation, UserError, scarp
 from thawslide.errors import ReportError
@@ -270,6 +270,26 @@ def test_codes_of_a_substrate(reader: Reader, name: str) -> None:
 
     write, expected = (odd.RASTERS | odd.CODES)[name]
     require(reader, read, write(reader.folder / "given" / "odd.tif", odd.thickness()), expected)
+
+
+@pytest.mark.parametrize(("unit", "factor", "offset"), [("", 1, 0), ("degC", 1, 0), ("K", 1, 273.15), ("F", 1.8, 32)])
+def test_temperatures(reader: Reader, unit: str, factor: float, offset: float) -> None:
+    values = np.full(odd.heights().shape, -7.0 * factor + offset)
+    file = odd.raster(reader.folder / "given" / "odd.tif", values, unit=unit)
+    checked = reader.setup(body__slide__temperature=f'{{ raster = "{file}" }}')["bodies"][0]
+    assert (checked["coldest_C"], checked["warmest_C"]) == pytest.approx((-7.0, -7.0))
+
+
+def test_profiles(thawslide: Program, small_case: Path) -> None:
+    """Marks, comments, blank lines, spaces, ends of lines and notations of numbers do not change a profile."""
+    header, row = "distance_m,terrain_elevation_m\n", "20,-9.25"
+    profile = with_profile(small_case, f"{header}0,0.5\n{row}")
+    thawslide.ok("block", small_case, "--output", small_case / "plain.csv")
+    odd_rows = "# surveyed\n\n distance_m ,\tterrain_elevation_m  \n+0e0,5.0E-01\n# a remark\n 2.0e1 ,-0.925e+1"
+    for text in (f"\ufeff{header}0,0.5\r\n{row}\r\n", odd_rows, odd_rows.replace("\n", "\r\n")):
+        profile.write_text(text, encoding="utf-8", newline="")
+        thawslide.ok("block", small_case, "--output", small_case / "odd.csv")
+        assert (small_case / "odd.csv").read_bytes() == (small_case / "plain.csv").read_bytes()
 
 
 @pytest.mark.parametrize("name", odd.LINES)
