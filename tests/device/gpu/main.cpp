@@ -1,13 +1,5 @@
 // thawslide_device_test: compares steps on a GPU with those on the CPU, and measures the speed of the GPU.
-//    thawslide_device_test            compares small slides, then measures 100,000 and 10 million particles
-//    thawslide_device_test --compare  small slides alone: for compute-sanitizer
-//    thawslide_device_test --speed N  speed of N particles alone, with the time of each stage
-//    thawslide_device_test --table    speed by size, up to the GPU's memory: first table of
-//    docs/how-to/run-on-a-gpu.md
-//    thawslide_device_test --rehearse  as --compare, without a GPU: its threads are emulated on the CPU, in shuffled
-//    order
-// Exit codes: 0 bitwise identical, or differences of at most 1e-12 of each quantity's maximum (the output states
-// which); 1 larger differences, or any difference between two runs on the GPU; 2 invalid options; 5 no GPU available.
+// tests/device/README.md has its options and exit codes.
 #include <algorithm>
 #include <array>
 #include <cmath>
