@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-import rasterio
 from conftest import Program, Ran, columns_of, history, run_facts, sets, with_profile
-from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line, write_release
+from terrain_files import EAST, NORTH, place, toml, turn_rows, write_dem, write_geojson, write_line, write_release
 
 RING = [(105.0, 105.0), (205.0, 105.0), (205.0, 195.0), (105.0, 195.0)]
 PATH = [(35.0, 150.0), (400.0, 150.0), (765.0, 155.0)]
@@ -47,15 +46,6 @@ def write_case(folder: Path, *, is_reversed: bool = False, path: list[tuple[floa
         write_line(folder / f"{name}.geojson", line[::-1] if is_reversed else line)
     write_geojson(folder / "release.geojson", "Polygon", [ring[::-1] if is_reversed else ring])
     return folder
-
-
-def turn_rows(file: Path) -> None:
-    with rasterio.open(file) as raster:
-        values, profile = raster.read(1), raster.profile
-    there = profile["transform"]
-    profile["transform"] = rasterio.Affine(there.a, 0.0, there.c, 0.0, -there.e, there.f + values.shape[0] * there.e)
-    with rasterio.open(file, "w", **profile) as raster:
-        raster.write(values[::-1], 1)
 
 
 def assert_alike(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:

@@ -7,19 +7,16 @@ import os
 import resource
 import signal
 import subprocess
-from collections import Counter
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-import rasterio
-from terrain_files import CRS_NAME, EAST, NORTH, place, toml, write_line, write_release
+from terrain_files import CRS_NAME, EAST, NORTH, place, toml, turn_rows, write_line, write_raster, write_release
 
 Generator = np.random.Generator
 Corners = list[tuple[float, float]]
-EXPECTED_CODES = {0, 2, 3}  # done, refused, and a run that failed with a message
+Commands = list[list[str]]
+EXPECTED_CODES = {0, 2, 3, -signal.SIGXCPU}  # done, refused, a run that failed with a message, and one cut off
 LONGEST = 60  # s of processor time of one command, which is then ended
-CUT_OFF = -1
 FEW_THREADS = {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}
 
 MATERIAL = toml("""
@@ -39,14 +36,6 @@ TIMES = toml("""
 [case] title = "random" | dimension = {dimension} | gravity_tilt = {tilt:.4g}
 [time] end = {end:.4g} | stepping = "adaptive" | output_interval = {end:.4g} | history_interval = 0.01
 """)
-
-
-@dataclass
-class RandomCase:
-    """A case folder, and the commands to be tested on it."""
-
-    folder: Path
-    commands: list[list[str]] = field(default_factory=list)
 
 
 def _physics(random: Generator) -> str:
@@ -74,14 +63,11 @@ def _relief(random: Generator, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return heights + random.choice([0.0, random.uniform(0.0, 3.0)]) * random.standard_normal(x.shape)
 
 
-def _write_raster(file: Path, values: np.ndarray, origin: tuple[float, float], cell: float, south_up: bool) -> None:
-    rows, columns = values.shape  # from the south
-    west, south = origin
-    up = rasterio.Affine(cell, 0.0, west, 0.0, cell, south)
-    down = rasterio.Affine(cell, 0.0, west, 0.0, -cell, south + rows * cell)
-    shape = {"width": columns, "height": rows, "count": 1, "dtype": "float64", "crs": CRS_NAME, "nodata": -9999.0}
-    with rasterio.open(file, "w", driver="GTiff", transform=up if south_up else down, **shape) as raster:
-        raster.write(values if south_up else values[::-1], 1)
+def _write_raster(file: Path, values: np.ndarray, cell: float, south_up: bool) -> None:
+    """Write a raster; rows of the values are from the south."""
+    write_raster(file, values[::-1], EAST, NORTH, cell, CRS_NAME, -9999.0)
+    if south_up:
+        turn_rows(file)
 
 
 def _place_near(random: Generator, size: tuple[float, float], share: float) -> tuple[float, float]:
@@ -127,7 +113,7 @@ def _degenerate(random: Generator, corners: Corners) -> Corners:
     return [*corners[:at], corners[at], *corners[at:]] if kind == 1 else [*corners, *corners[-2::-1]]
 
 
-def _in_space(random: Generator, case: RandomCase) -> str:
+def _in_space(random: Generator, folder: Path, commands: Commands) -> str:
     columns, rows = (int(n) for n in random.integers(12, 50, 2))
     points_apart = float(random.choice([1.0, 5.0, 10.0, random.uniform(1.0, 20.0)]))
     size = (columns * points_apart, rows * points_apart)
@@ -138,21 +124,21 @@ def _in_space(random: Generator, case: RandomCase) -> str:
         heights[row : row + 3, column : column + 3] = -9999.0
     known = heights[heights > -9000.0]
     south_up = _chance(random, 0.3)
-    _write_raster(case.folder / "dem.tif", heights, (EAST, NORTH), points_apart, south_up)
+    _write_raster(folder / "dem.tif", heights, points_apart, south_up)
     radius = random.uniform(0.1, 0.3) * min(size)
     middle = 0.0 if _chance(random, 0.05) else 1.1 * radius + 2.5 * points_apart  # from the edge of the domain
     centre = tuple(float(random.uniform(middle, side - middle)) if side > 2.0 * middle else side / 2.0 for side in size)
-    write_line(case.folder / "line.geojson", _line(random, size, centre, points_apart))
+    write_line(folder / "line.geojson", _line(random, size, centre, points_apart))
     cell = radius / random.uniform(3.0, 9.0)
     thickness = random.uniform(0.9, 4.0) * cell
     ring = _polygon(random, centre, radius, points_apart)
-    write_release(case.folder / "release.geojson", ring)
+    write_release(folder / "release.geojson", ring)
     body = f'release = "release.geojson" | thickness = {thickness:.6g}'
     if _chance(random, 0.3):
         x, y = np.meshgrid(*middles)
         inside = np.hypot(x - centre[0], y - centre[1]) < radius
         values = np.where(inside, thickness * random.uniform(0.2, 1.0, inside.shape), 0.0)
-        _write_raster(case.folder / "thickness.tif", values, (EAST, NORTH), points_apart, _chance(random, 0.3))
+        _write_raster(folder / "thickness.tif", values, points_apart, _chance(random, 0.3))
         body = 'thickness = { raster = "thickness.tif" }'
     inset = [random.uniform(0.5, 2.0 if _chance(random, 0.9) else 0.4 * min(columns, rows)) for _ in range(4)]
     lower = [EAST + inset[0] * points_apart, NORTH + inset[1] * points_apart, known.min() - 5.0 * cell]
@@ -176,19 +162,18 @@ def _in_space(random: Generator, case: RandomCase) -> str:
         corner = place(*_place_near(random, size, 0.1))
         name = f"across{number}.geojson"
         section = [_place_near(random, size, 0.1) for _ in range(random.integers(2, 4))]
-        write_line(case.folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
+        write_line(folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
         value = f'line = "{name}"' if _chance(random, 0.6) else f"point = [{corner[0]:.17g}, {corner[1]:.17g}]"
         text += f"[probe.p{number}]\n{value}\n"
-    folder = case.folder
     maps = ["--dem", f"{folder}/dem.tif", "--release", f"{folder}/release.geojson", "--thickness", f"{thickness:.6g}"]
     maps.append(str(random.choice(["--cut", "--on-top"])))
-    case.commands.append(["section", f"{folder}/section", *maps, "--line", f"{folder}/line.geojson"])
+    commands.append(["section", f"{folder}/section", *maps, "--line", f"{folder}/line.geojson"])
     if _chance(random, 0.3):
-        case.commands.append(["new", f"{folder}/new", *maps])
+        commands.append(["new", f"{folder}/new", *maps])
     return text
 
 
-def _in_plane(random: Generator, case: RandomCase) -> str:
+def _in_plane(random: Generator, folder: Path) -> str:
     length = random.uniform(100.0, 1000.0)
     count = int(random.integers(2, 60))
     x = np.sort(random.uniform(0.0, length, count))
@@ -201,7 +186,7 @@ def _in_plane(random: Generator, case: RandomCase) -> str:
     surface = heights + np.where((x > begin) & (x < end), thickness, 0.0)
     rows = [f"{a:.17g},{b:.17g},{c:.17g}" for a, b, c in zip(x, heights, surface, strict=True)]
     header = "distance_m,terrain_elevation_m,surface_elevation_m"
-    (case.folder / "profile.csv").write_text("\n".join([header, *rows]) + "\n")
+    (folder / "profile.csv").write_text("\n".join([header, *rows]) + "\n")
     cell = max(thickness / random.uniform(1.0, 6.0), length / 200.0)
     lowest, cells = heights.min() - 5.0 * cell, np.floor(length / cell)
     up = np.ceil((np.ptp(heights) + thickness) / cell) + 12.0
@@ -227,43 +212,30 @@ def _in_plane(random: Generator, case: RandomCase) -> str:
 """)
 
 
-def draw(seed: int, folder: Path) -> RandomCase:
-    """Write the case of a seed, and return it with the commands to be tested."""
+def draw(seed: int, folder: Path) -> Commands:
+    """Write the case of a seed, and return the commands to be tested on it."""
     random = np.random.default_rng(seed)
     folder.mkdir(parents=True)
-    case = RandomCase(folder)
+    commands: Commands = []
     in_space = _chance(random, 0.7)
     tilt = 0.0 if _chance(random, 0.85) else random.uniform(-30.0, 30.0)
     times = TIMES.format(dimension=3 if in_space else 2, tilt=tilt, end=random.uniform(0.02, 0.2))
-    text = (_in_space if in_space else _in_plane)(random, case)
+    text = _in_space(random, folder, commands) if in_space else _in_plane(random, folder)
     (folder / "case.toml").write_text(times + text + _physics(random))
-    case.commands += [["check", f"{folder}"], ["block", f"{folder}"]]
-    case.commands.append(["block", f"{folder}", "--set", "time.end=20", "--output", f"{folder}/block.csv"])
-    case.commands.append(["run", f"{folder}", "--output", f"{folder}/run", "--threads", "1"])
-    return case
+    return [
+        *commands, ["check", f"{folder}"], ["block", f"{folder}"],
+        ["block", f"{folder}", "--set", "time.end=20", "--output", f"{folder}/block.csv"],
+        ["run", f"{folder}", "--output", f"{folder}/run", "--threads", "1"],
+    ]  # fmt: skip
 
 
-@dataclass
-class TestedCase:
-    """Results of the commands on one case."""
-
-    faults: list[str] = field(default_factory=list)
-    codes: Counter[tuple[str, int]] = field(default_factory=Counter)
-
-
-def attempt(program: Path, case: RandomCase) -> TestedCase:
-    """Run each command; return the failures: anything but success, a refusal, or a failure with a message."""
-    tested = TestedCase()
-    for words in case.commands:
-        done = subprocess.run(
-            [str(program), *words], env=os.environ | FEW_THREADS, stdin=subprocess.DEVNULL, capture_output=True,
-            text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5)),
-            timeout=10 * LONGEST, check=False,
-        )  # fmt: skip
-        if done.returncode == -signal.SIGXCPU:
-            tested.codes[words[0], CUT_OFF] += 1
-            continue
-        tested.codes[words[0], done.returncode] += 1
-        if done.returncode not in EXPECTED_CODES or "internal error" in done.stderr:
-            tested.faults.append(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-2000:]}")
-    return tested
+def exit_code(program: Path, words: list[str]) -> int:
+    """Run a command; return its exit code. Fail unless it succeeds, is refused, or fails with a message."""
+    done = subprocess.run(
+        [str(program), *words], env=os.environ | FEW_THREADS, stdin=subprocess.DEVNULL, capture_output=True,
+        text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5)),
+        timeout=10 * LONGEST, check=False,
+    )  # fmt: skip
+    is_expected = done.returncode in EXPECTED_CODES and "internal error" not in done.stderr
+    assert is_expected, f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-2000:]}"
+    return done.returncode

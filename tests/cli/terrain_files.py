@@ -45,6 +45,16 @@ def write_raster(
     return file
 
 
+def turn_rows(file: Path) -> None:
+    """Write the rows of a raster in the other order, which its georeference states."""
+    with rasterio.open(file) as raster:
+        values, profile = raster.read(1), raster.profile
+    there = profile["transform"]
+    profile["transform"] = rasterio.Affine(there.a, 0.0, there.c, 0.0, -there.e, there.f + values.shape[0] * there.e)
+    with rasterio.open(file, "w", **profile) as raster:
+        raster.write(values[::-1], 1)
+
+
 def write_dem(file: Path, height: Height, columns: int = 80, rows: int = 40, cell: float = 10.0) -> Path:
     """Write a GeoTIFF; heights are of x and y relative to the corner [m], and NaN for missing data."""
     x = (np.arange(columns) + 0.5) * cell
