@@ -114,25 +114,19 @@ def slope(tmp_path: Path) -> Path:
     return write_case(tmp_path, lambda x, _: 1000.0 - 0.5 * x)
 
 
-def test_a_path_along_the_contour_has_a_warning(thawslide: Program, slope: Path) -> None:
+def test_unusual_paths_are_reported_or_refused(thawslide: Program, slope: Path) -> None:
     assert "steepest descent" not in thawslide.ok("block", slope)
     write_line(slope / "path.geojson", [(150.0, 10.0), (150.0, 195.0)])
     printed = thawslide.ok("block", slope)
     assert "warning: maps.path is at 90 degrees to the steepest descent at the middle of the release" in printed
-
-
-def test_a_path_of_no_length_is_refused(thawslide: Program, slope: Path) -> None:
-    write_line(slope / "path.geojson", [(150.0, MIDDLE), (150.0, MIDDLE)])
-    for command in (("block", slope), ("run", slope, "--output", slope / "run", *sets(time__end=0.1))):
-        assert "the path has no length; allowed: a line of at least two different points" in thawslide.error(*command)
-
-
-def test_a_path_next_to_the_release_is_reported(thawslide: Program, slope: Path) -> None:
     assert "misses the release by" not in thawslide.ok("check", slope)
     write_line(slope / "path.geojson", [(50.0, 190.0), (790.0, 190.0)])
     printed = thawslide.ok("check", slope)
     # From the release's edge at y = 122.5 m, whose points reach half a cell further.
     assert "warning: maps.path: path.geojson misses the release by 6" in printed
+    write_line(slope / "path.geojson", [(150.0, MIDDLE), (150.0, MIDDLE)])
+    for command in (("block", slope), ("run", slope, "--output", slope / "run", *sets(time__end=0.1))):
+        assert "the path has no length; allowed: a line of at least two different points" in thawslide.error(*command)
 
 
 def test_a_probe_without_terrain_is_reported(thawslide: Program, slope: Path) -> None:

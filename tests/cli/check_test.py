@@ -26,16 +26,6 @@ def test_a_run_is_kept_until_a_case_replaces_it(ran: Ran, thawslide: Program, sm
     assert content_of(run) == before
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
-def test_an_unreadable_input_does_not_replace_a_run(ran: Ran, thawslide: Program, small_case: Path) -> None:
-    run = ran()
-    (small_case / "base.toml").write_text((small_case / "case.toml").read_text())
-    (small_case / "base.toml").chmod(0)
-    (small_case / "case.toml").write_text('[case]\nbased_on = "base.toml"\n')
-    thawslide.error("run", small_case, "--output", run, "--overwrite")
-    assert (run / "history.csv").exists() and snapshot_files(run)
-
-
 def test_rows_and_snapshots_are_at_most_one_per_step(ran: Ran, thawslide: Program, small_case: Path) -> None:
     words = sets(time__end=0.02, time__output_interval=1e-7, time__history_interval=1e-9, checkpoint__interval=1e-10)
     disk = thawslide.json("check", small_case, *words)["disk"]

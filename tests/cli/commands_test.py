@@ -31,12 +31,6 @@ def test_a_misspelt_command_has_a_suggestion(thawslide: Program) -> None:
     assert "there is no command 'rum'; did you mean 'run'?" in thawslide.error("rum", quiet=True)
 
 
-def test_help_lists_the_commands(thawslide: Program) -> None:
-    printed = thawslide.ok("--help")
-    for command in ("run", "resume", "check", "block", "new", "section", "describe", "report", "sweep", "version"):
-        assert re.search(rf"^\s+{command}\s+\S", printed, re.MULTILINE), command
-
-
 def test_describe_names_each_key_and_has_a_markdown_page_and_a_schema(thawslide: Program) -> None:
     printed = thawslide.ok("describe")
     assert "[time]" in printed and "[material.NAME]" in printed
@@ -72,11 +66,6 @@ def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
     assert "picture" not in facts
 
 
-def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
-    thawslide.ok("check", small_case, folder=small_case)
-    assert [file.name for file in small_case.iterdir()] == ["case.toml"]
-
-
 def test_check_plots(thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path) -> None:
     (small_case / "stiff.toml").write_text('[case]\nbased_on = "case.toml"\n')
     elsewhere = tmp_path / "elsewhere"
@@ -103,7 +92,7 @@ def run_lone(lone: Path, environment: dict[str, str], *words: object) -> Outcome
     return subprocess.run([lone, *map(str, words)], env=environment, capture_output=True, text=True, timeout=HANG)
 
 
-def test_check_without_thawslide_report_prints_the_facts_and_names_the_remedy(
+def test_without_thawslide_report_the_remedy_is_named(
     lone_binary: Path, plain_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
     outcome = run_lone(lone_binary, plain_environment, "check", small_case, "--picture", tmp_path / "out.png")
@@ -112,6 +101,10 @@ def test_check_without_thawslide_report_prints_the_facts_and_names_the_remedy(
     assert "the picture was not drawn: thawslide-report is not on PATH." in outcome.stderr
     assert "`./run --setup` installs it" in outcome.stderr
     assert not (tmp_path / "out.png").exists()
+    outcome = run_lone(lone_binary, plain_environment, "report", "x")
+    assert outcome.returncode == 2
+    assert "thawslide-report cannot be started (No such file or directory)." in outcome.stderr
+    assert "put .venv/bin on PATH" in outcome.stderr
 
 
 @pytest.mark.parametrize("place", ["bin", ".venv/bin"])
@@ -138,7 +131,7 @@ def test_run_with_an_end_is_short_for_set(ran: Ran, thawslide: Program, small_ca
     assert "--end is short for --set time.end: give one of the two." in message
 
 
-def test_block_prints_a_table(thawslide: Program) -> None:
+def test_block_prints_a_table_or_writes_a_csv_and_applies_set(thawslide: Program, tmp_path: Path) -> None:
     names, units, *rows, last = thawslide.ok("block", LAMPLUGH / "case.toml", *sets(time__end=40)).splitlines()
     assert names.split()[:3] == ["time", "velocity", "distance"]
     assert units.split()[:3] == ["s", "m/s", "m"]
@@ -146,9 +139,6 @@ def test_block_prints_a_table(thawslide: Program) -> None:
     assert len(times) == 21 and times[0] == 0.0 and times == sorted(times)
     assert times[-1] == pytest.approx(40.0, abs=0.02)
     assert re.match(r"safety factor at the start: \d\.\d{3} ", last)
-
-
-def test_block_writes_a_csv_and_applies_set(thawslide: Program, tmp_path: Path) -> None:
     file = tmp_path / "x.csv"
     words = sets(time__end=10, basal__cohesion=0, basal__residual_cohesion=0)
     printed = thawslide.ok("block", LAMPLUGH, "--output", file, *words)
@@ -160,25 +150,17 @@ def test_block_writes_a_csv_and_applies_set(thawslide: Program, tmp_path: Path) 
     assert (np.diff(speeds) >= 0.0).all() and speeds[-1] > 10.0
 
 
-def test_report_plots_the_figures_of_a_run(ran: Ran, thawslide: Program, report_environment: dict[str, str]) -> None:
+def test_report_plots_the_figures_of_a_run_and_passes_on_the_exit_code(
+    ran: Ran, thawslide: Program, report_environment: dict[str, str], tmp_path: Path
+) -> None:
     run = ran()
     printed = thawslide.ok("report", run, "--only", "velocity,energy", environment=report_environment)
     assert sorted(file.name for file in (run / "figures").iterdir()) == ["energy.png", "velocity.png"]
     assert all(file.read_bytes().startswith(PNG) for file in (run / "figures").iterdir())
     assert (run / "report.html").read_text().lstrip().startswith("<!")
     assert f"report: {run / 'report.html'}" in printed
-
-
-def test_report_passes_on_the_exit_code(thawslide: Program, report_environment: dict[str, str], tmp_path: Path) -> None:
     outcome = thawslide("report", tmp_path / "nothing", environment=report_environment)
     assert outcome.returncode == 2 and "thawslide-report: error:" in outcome.stderr
-
-
-def test_report_without_thawslide_report_names_the_remedy(lone_binary: Path, plain_environment: dict[str, str]) -> None:
-    outcome = run_lone(lone_binary, plain_environment, "report", "x")
-    assert outcome.returncode == 2
-    assert "thawslide-report cannot be started (No such file or directory)." in outcome.stderr
-    assert "put .venv/bin on PATH" in outcome.stderr
 
 
 def test_a_missing_gpu_is_reported_before_writing(thawslide: Program, small_case: Path, run: Path) -> None:

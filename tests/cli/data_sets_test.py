@@ -94,21 +94,7 @@ def case(thawslide: Program, tmp_path: Path, given: Path) -> Path:
     return tmp_path / "slide"
 
 
-def test_copies_are_complete_and_unchanged(thawslide: Program, case: Path, given: Path, run: Path) -> None:
-    original = contents(given.parent)
-    shutil.rmtree(given.parent)
-    assert volume(thawslide, case) == pytest.approx(odd.FULL, rel=1e-6)
-    assert original.items() <= contents(case).items()
-    thawslide.ok("run", case, "--output", run, *sets(time__end=0.02, grid__cell=20.0))
-    shutil.rmtree(case)
-    assert original.items() <= contents(run / "inputs").items()
-    for end in (0.03, 0.04):
-        thawslide.ok("resume", run, "--end", end)
-    assert release_volume(run) == pytest.approx(odd.FULL, rel=1e-3)
-    assert original.items() <= contents(run / "inputs").items()
-
-
-def test_digest_of_a_sweep_depends_on_every_file(case: Path, given: Path) -> None:
+def test_copies_and_digests_have_every_file_unchanged(case: Path, given: Path, thawslide: Program, run: Path) -> None:
     def digest() -> str:
         return _digest(Case(case), Path.read_bytes)
 
@@ -121,6 +107,17 @@ def test_digest_of_a_sweep_depends_on_every_file(case: Path, given: Path) -> Non
         (case / name).write_bytes(content + (b" " if is_text else b"\0"))  # which changes no meaning
         assert digest() != before, name
         (case / name).write_bytes(content)
+    original = contents(given.parent)
+    shutil.rmtree(given.parent)
+    assert volume(thawslide, case) == pytest.approx(odd.FULL, rel=1e-6)
+    assert original.items() <= contents(case).items()
+    thawslide.ok("run", case, "--output", run, *sets(time__end=0.02, grid__cell=20.0))
+    shutil.rmtree(case)
+    assert original.items() <= contents(run / "inputs").items()
+    for end in (0.03, 0.04):
+        thawslide.ok("resume", run, "--end", end)
+    assert release_volume(run) == pytest.approx(odd.FULL, rel=1e-3)
+    assert original.items() <= contents(run / "inputs").items()
 
 
 def test_file_added_to_an_input_of_a_run_is_refused(thawslide: Program, tmp_path: Path, run: Path) -> None:

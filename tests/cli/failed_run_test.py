@@ -123,7 +123,7 @@ SOFT = sets(material__rock_ice__youngs_modulus=0.5, time__step=0.01)
 RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
 
 
-def test_a_run_ends_at_rest(ran: Ran, thawslide: Program, small_case: Path, run: Path) -> None:
+def test_a_run_ends_at_rest_and_continues_if_changed(ran: Ran, thawslide: Program, small_case: Path, run: Path) -> None:
     printed = thawslide.ok("run", small_case, "--output", run, *RESTS)
     facts = run_facts(run)
     reported = re.fullmatch(
@@ -141,21 +141,15 @@ def test_a_run_ends_at_rest(ran: Ran, thawslide: Program, small_case: Path, run:
     assert columns["time_s"][-1] == end
     complete = ran(*SLIDES, *sets(time__end=end), name="complete")
     conftest.assert_identical(run, complete)
-
-
-def test_a_run_at_rest_is_not_changed_and_continues_by_a_changed_case(ran: Ran, thawslide: Program) -> None:
-    run = ran(*RESTS)
-    before, rest = conftest.content_of(run), run_facts(run)["simulated_time_s"]
-    reported = run_facts(run)["message"]
-    assert reported.startswith("the slide is at rest: ")
-    assert thawslide.ok("resume", run) == f"{run} has reached its end at {rest:g} s: {reported}; nothing to do\n"
+    before, ended = conftest.content_of(run), f"{run} has reached its end at {end:g} s: {facts['message']}"
+    assert thawslide.ok("resume", run) == f"{ended}; nothing to do\n"
     assert thawslide.ok("resume", run, "--end", 6) == (
-        f"{run} has come to rest at {rest:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n"
+        f"{run} has come to rest at {end:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n"
     )
     assert conftest.content_of(run) == before
     thawslide.ok("resume", run, *sets(time__rest_time=0.6))
     longer = run_facts(run)
-    assert longer["simulated_time_s"] == pytest.approx(rest + 0.2, abs=0.02)
+    assert longer["simulated_time_s"] == pytest.approx(end + 0.2, abs=0.02)
     assert longer["message"].startswith("the slide is at rest")
     thawslide.ok("resume", run, *sets(time__rest_time=0.4, basal__friction_angle=5))
     again = run_facts(run)

@@ -9,14 +9,6 @@ from conftest import PROFILE, Program, Ran, Slope, assert_identical, run_facts, 
 from terrain_files import CELL, SOUTH, WEST, write_rectangle
 
 
-def test_a_large_case_file_is_refused(thawslide: Program, small_case: Path) -> None:
-    file = small_case / "case.toml"
-    file.write_text(file.read_text() + "#" * 10_000_000 + "\n")
-    assert thawslide.error("check", file, quiet=True) == (
-        f"error: {file}: the file has 10 MB; allowed: 10 MB. Profiles, polygons and rasters are separate files.\n"
-    )
-
-
 def test_a_large_profile_is_refused(thawslide: Program, small_case: Path) -> None:
     profile = with_profile(small_case, "distance_m,terrain_elevation_m\n")
     os.truncate(profile, 200_000_000)
@@ -47,17 +39,10 @@ def test_a_variant_can_be_named_without_a_folder(thawslide: Program, small_case:
         thawslide.ok(*words, folder=small_case)
 
 
-def test_the_copy_of_a_linked_input_is_a_file(ran: Ran, small_case: Path) -> None:
+@pytest.mark.parametrize("remarks", [0, 510_000])
+def test_the_copy_of_a_linked_input_is_a_copy(ran: Ran, thawslide: Program, small_case: Path, remarks: int) -> None:
     """Links to files outside the folder are refused: tests/cpp/config/named_files_test.cpp."""
-    profile = with_profile(small_case)
-    profile.rename(small_case / "real.csv")
-    profile.symlink_to("real.csv")
-    copy = ran(*sets(time__end=0.01)) / "inputs" / "profile.csv"
-    assert copy.read_text() == PROFILE and not copy.is_symlink()
-
-
-def test_the_copy_of_a_large_input_is_a_copy(ran: Ran, thawslide: Program, small_case: Path) -> None:
-    profile = with_profile(small_case, PROFILE + ("#" * 99 + "\n") * 510_000)
+    profile = with_profile(small_case, PROFILE + ("#" * 99 + "\n") * remarks)
     original = profile.rename(small_case / "real.csv")
     profile.symlink_to("real.csv")
     run = ran(*sets(time__end=0.01))
@@ -86,7 +71,7 @@ def test_a_linked_case_file_is_read_and_a_linked_base_is_refused(thawslide: Prog
     )
 
 
-def test_a_linked_output_folder_is_written_and_kept(thawslide: Program, small_case: Path) -> None:
+def test_linked_output_folders_are_written_and_kept_or_refused(thawslide: Program, small_case: Path) -> None:
     disk, run, plain = (small_case.parent / name for name in ("disk", "run", "plain"))
     disk.mkdir()
     run.symlink_to(disk)
@@ -106,10 +91,7 @@ def test_a_linked_output_folder_is_written_and_kept(thawslide: Program, small_ca
     thawslide.ok("run", small_case, "--output", run, "--overwrite", *words)
     assert not (disk / "snapshots").is_symlink() and (kept / "000000.vtkhdf").read_text() == "of another"
     assert run_facts(run)["status"] == "done"
-
-
-def test_an_output_folder_linked_to_nothing_is_refused(thawslide: Program, small_case: Path) -> None:
-    run = small_case.parent / "run"
+    run = small_case.parent / "dangling"
     run.symlink_to(small_case.parent / "nowhere")
     problem = "it is a link to a folder that is not there. Give another --output."
     message = thawslide.error("run", small_case, "--output", run, quiet=True)
@@ -132,16 +114,12 @@ def test_rasters_of_other_formats_are_refused(tmp_path: Path, slope: Slope) -> N
     assert "Allowed: a GeoTIFF or an ESRI ASCII grid" in message
 
 
-def test_too_many_polygons_are_refused(tmp_path: Path, slope: Slope) -> None:
+def test_too_many_polygons_and_points_are_refused(tmp_path: Path, slope: Slope, thawslide: Program) -> None:
     polygons = write_rectangle(tmp_path / "many.geojson", WEST + 200.0, SOUTH + 250.0)
     text = polygons.read_text()
     start, end = text.index('{"type": "Feature",'), text.rindex("]")
     polygons.write_text(text[:start] + ",".join([text[start:end]] * 100_001) + text[end:])
     assert "the file has more than 100000 polygons; allowed: as many." in slope.error(release=polygons, thickness=20)
-
-
-def test_a_raster_of_too_many_points_is_refused(slope: Slope, tmp_path: Path) -> None:
-    """The header is sufficient: no memory is allocated."""
     dem = tmp_path / "large.asc"
     with dem.open("w") as file:
         file.write(f"ncols 30000\nnrows 30000\nxllcorner {WEST}\nyllcorner {SOUTH}\ncellsize 1\nNODATA_value -9999\n")
@@ -149,9 +127,6 @@ def test_a_raster_of_too_many_points_is_refused(slope: Slope, tmp_path: Path) ->
         file.truncate(2 * 30000**2)  # long enough for so many values; a sparse file needs no disk space
     message = slope.error("--crs", "EPSG:32631", dem=dem)
     assert "30,000 x 30,000 points of it are needed; allowed: 400,000,000 points. Crop it" in message
-
-
-def test_resampling_to_too_many_points_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     slope.ok(thickness=20)
     message = thawslide.error("check", tmp_path / "slide", "--set", "terrain.resample=0.01", quiet=True)
     assert re.search(

@@ -97,7 +97,7 @@ def test_crs_supplies_and_replaces_a_reference_system(slope: Slope) -> None:
     assert printed.startswith("note: wrong.tif is read as EPSG:32632, as set by --crs; the file specifies EPSG:4326\n")
 
 
-def test_a_release_too_thin_for_its_area_is_refused(slope: Slope) -> None:
+def test_releases_too_thin_and_existing_folders_are_refused(slope: Slope) -> None:
     message = slope.error(thickness=0.3)
     assert re.search(
         r"^error: --thickness: a release 0\.3 m thick requires cells of 0\.\d+ m and \S+ particles; allowed without "
@@ -105,6 +105,11 @@ def test_a_release_too_thin_for_its_area_is_refused(slope: Slope) -> None:
         r"use a depth-averaged program",
         message,
     ), message
+    folder = slope.folder / "full"
+    folder.mkdir()
+    (folder / "notes.txt").write_text("mine")
+    message = slope.error(folder=folder)
+    assert message == "error: full: it exists and is not an empty folder. Choose another name.\n"
 
 
 def test_bodies_may_adjoin_but_not_overlap(ran: Ran, thawslide: Program, slope: Slope) -> None:
@@ -117,14 +122,6 @@ def test_bodies_may_adjoin_but_not_overlap(ran: Ran, thawslide: Program, slope: 
     write_rectangle(slope.case / "toe.geojson", WEST + 320.0, SOUTH + 250.0)
     run = ran("--set", "time.end=0.01", case=slope.case)
     assert release_volume(run) == pytest.approx(WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9)
-
-
-def test_an_existing_folder_is_refused(slope: Slope) -> None:
-    folder = slope.folder / "full"
-    folder.mkdir()
-    (folder / "notes.txt").write_text("mine")
-    message = slope.error(folder=folder)
-    assert message == "error: full: it exists and is not an empty folder. Choose another name.\n"
 
 
 CREATE_AGAIN = r"`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle.*\n"

@@ -6,10 +6,11 @@ import signal
 import tomllib
 from pathlib import Path
 
-import conftest
 import pytest
 import rasterio
-from conftest import Program, Ran, Slope, assert_identical, columns_of, history, release_volume, run_facts, sets
+from conftest import (
+    Interrupted, Program, Ran, Slope, assert_identical, columns_of, history, release_volume, run_facts, sets,
+)  # fmt: skip
 from terrain_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
 
 
@@ -98,13 +99,7 @@ def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slo
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
 def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
-    ran: Ran,
-    thawslide: Program,
-    interrupted: conftest.Interrupted,
-    tmp_path: Path,
-    slope: Slope,
-    number: int,
-    percent: int,
+    ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path, slope: Slope, number: int, percent: int
 ) -> None:
     folder, parts = tmp_path / "slide", tmp_path / "parts"
     slope.ok()

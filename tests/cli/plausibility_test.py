@@ -31,10 +31,6 @@ def warnings_of(thawslide: Program, case: Path, *words: str) -> list[str]:
     return notes
 
 
-def test_a_plain_case_has_no_warnings(thawslide: Program, plain_case: Path) -> None:
-    assert warnings_of(thawslide, plain_case, "--set", "grid.cell=0.5") == []
-
-
 COARSE = "{case}:11:8: grid.cell: across the median thickness of body block, 1.5 m, there are too few particles"
 SOFT, OUTPUT = "material.rock.youngs_modulus", "time.output_interval"
 

@@ -27,7 +27,7 @@ def run_output(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> 
     return printed.splitlines(), run
 
 
-def test_the_first_line_has_title_particles_and_threads(run_output: tuple[list[str], Path]) -> None:
+def test_plain_lines_have_a_title_and_the_progress(run_output: tuple[list[str], Path]) -> None:
     lines, run = run_output
     particles = run_facts(run)["particles"]
     title = "Lamplugh rock-ice avalanche, 2016, reproduction of the paper"
@@ -36,7 +36,7 @@ def test_the_first_line_has_title_particles_and_threads(run_output: tuple[list[s
 
 def test_plain_lines_report_percentage_speed_remaining_time_and_front(run_output: tuple[list[str], Path]) -> None:
     percentages = []
-    for line in run_output[0][1:]:
+    for line in lines[1:]:
         if "%" in line and "left" in line:
             # A speed requires two positions of the front.
             reported = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if percentages else ''}", line)

@@ -104,7 +104,9 @@ def plane(tmp_path: Path) -> list[str]:
     return [str(tmp_path / "plane" / "refined-plane.toml"), *sets(grid__cell=40)]
 
 
-def test_a_slide_one_cell_thick_covers_its_area(thawslide: Program, plane: list[str], tmp_path: Path) -> None:
+def test_split_particles_cover_their_area_and_name_their_parents(
+    thawslide: Program, plane: list[str], tmp_path: Path
+) -> None:
     # 145,350 and 491,950 m2 without splitting
     thawslide.ok("run", *plane, *SPLITS, "--output", tmp_path / "run")
     facts = run_facts(tmp_path / "run")
@@ -112,6 +114,15 @@ def test_a_slide_one_cell_thick_covers_its_area(thawslide: Program, plane: list[
     assert facts["affected_area_m2"] == pytest.approx(600_000.0, rel=0.1)
     assert facts["travel_distance_m"] == pytest.approx(1_335.0, rel=0.02)
     assert 0.0 < facts["dilation_fraction"] < 0.05
+    thawslide.ok("run", *plane, *sets(time__end=1), "--output", tmp_path / "whole")
+    first, last = (particles(tmp_path / "run", place) for place in (0, -1))
+    start, number, parent = first["id"].size, last["id"], last["parent_id"]
+    assert number.tolist() == list(range(number.size))
+    assert number.size > 1.5 * start
+    assert np.array_equal(parent[:start], number[:start])
+    assert np.all(parent[start:] < number[start:])
+    assert last["mass"].sum() == pytest.approx(first["mass"].sum(), rel=1e-13)
+    assert "parent_id" not in particles(tmp_path / "whole", -1)
 
 
 @pytest.mark.long
@@ -123,19 +134,6 @@ def test_a_split_tail_has_no_gap_larger_than_a_cell(thawslide: Program, tmp_path
     for file in files:
         along = np.sort(datasets(file)["VTKHDF/Points"][:, 0])
         assert np.diff(along).max() < 10.0
-
-
-def test_particle_files_name_the_particle_that_was_split(thawslide: Program, plane: list[str], tmp_path: Path) -> None:
-    thawslide.ok("run", *plane, *SPLITS, "--output", tmp_path / "split")
-    thawslide.ok("run", *plane, *sets(time__end=1), "--output", tmp_path / "whole")
-    first, last = (particles(tmp_path / "split", place) for place in (0, -1))
-    start, number, parent = first["id"].size, last["id"], last["parent_id"]
-    assert number.tolist() == list(range(number.size))
-    assert number.size > 1.5 * start
-    assert np.array_equal(parent[:start], number[:start])
-    assert np.all(parent[start:] < number[start:])
-    assert last["mass"].sum() == pytest.approx(first["mass"].sum(), rel=1e-13)
-    assert "parent_id" not in particles(tmp_path / "whole", -1)
 
 
 def test_an_interrupted_run_continues_bitwise_identically(

@@ -151,16 +151,11 @@ def test_a_case_before_the_first_checkpoint_changes_by_the_command_line_only(tha
     thawslide.ok("resume", done, "--end", 0.3)
 
 
-def test_a_finished_run_is_not_changed(thawslide: Program, done: Path) -> None:
+def test_a_finished_run_is_not_changed_and_needs_checkpoints_to_continue(thawslide: Program, done: Path) -> None:
     before = content_of(done)
     for words in ([], ["--end", 0.2]):
         assert thawslide.ok("resume", done, *words) == f"{done} has reached its end at 0.2 s; nothing to do\n"
     assert content_of(done) == before
-    thawslide.ok("resume", done, "--end", 0.3, *sets(basal__friction_angle=5))
-    assert run_facts(done)["parts"][-1]["changes"] == ["basal.friction_angle=5", "time.end=0.3"]
-
-
-def test_a_finished_run_without_checkpoints_cannot_be_extended(thawslide: Program, done: Path) -> None:
     for name in (*CHECKPOINTS, "history.csv"):
         (done / name).unlink()
     assert thawslide.ok("resume", done) == (
@@ -187,11 +182,6 @@ def test_a_later_end_continues_from_an_older_checkpoint(thawslide: Program, done
     assert thawslide.ok("resume", done, "--end", 0.25).startswith(
         "continuing from t = 0 s; it had reached 0.2 s: rows and snapshots after 0 s are written again\n"
     )
-
-
-def test_a_run_that_lost_its_checkpoints_can_be_run_again(thawslide: Program, ran: Ran, done: Path) -> None:
-    without_checkpoints(done)
-    assert (ran(case=done, name="other") / "history.csv").read_bytes() == (done / "history.csv").read_bytes()
 
 
 def test_a_failed_run_can_end_before_its_failure(thawslide: Program, failed: Path) -> None:

@@ -70,17 +70,6 @@ def test_a_killed_run_continues(thawslide: Program, interrupted: Interrupted, co
     assert_identical(complete, run)
 
 
-def test_a_stopped_run_prints_the_command_to_continue(thawslide: Program, run: Path) -> None:
-    with thawslide.start("run", LAMPLUGH, "--output", run, *WORDS) as process:
-        assert process.stdout
-        while "%" not in process.stdout.readline():
-            assert process.poll() is None
-        process.terminate()
-        _, errors = process.communicate(timeout=conftest.HANG)
-    stop = run_facts(run)["simulated_time_s"]
-    assert errors == f"interrupted by signal 15 at t = {stop:g} s. To continue: thawslide resume {run}\n"
-
-
 def test_a_finished_run_continues_when_its_end_is_moved(ran: Ran, thawslide: Program) -> None:
     # 11 steps of 0.9 ms end at 9.9 ms, when the row and the snapshot of 10 ms are due: they must not be written twice.
     words = sets(time__step=0.0009, time__history_interval=0.01, time__output_interval=0.01)
@@ -175,24 +164,18 @@ def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return run
 
 
-def test_each_row_follows_the_first_step_that_reaches_its_time(ran: Ran, whole: Path) -> None:
-    words = [*ADAPTIVE, *sets(time__history_interval=0)]
-    every = ran(*words, case=LAMPLUGH, name="every")
+def test_rows_follow_their_steps_and_change_none(ran: Ran, whole: Path) -> None:
+    every = ran(*ADAPTIVE, *sets(time__history_interval=0), case=LAMPLUGH, name="every")
     steps, rows = history(every)["time_s"], history(whole)["time_s"]
     due = [*np.arange(0.0, ADAPTIVE_END, ROWS), ADAPTIVE_END]
     round_off = 1e-9
     assert rows.tolist() == [steps[np.argmax(steps > due_time - round_off)] for due_time in due]
     assert np.any(rows > np.array(due) + 1e-4), "no row is late: the test has no effect"
-
-
-def test_rows_change_no_step_and_snapshots_are_on_time(ran: Ran, whole: Path) -> None:
-    words = [*ADAPTIVE, *sets(time__history_interval=1.1)]
-    few = ran(*words, case=LAMPLUGH, name="few")
+    few = ran(*ADAPTIVE, *sets(time__history_interval=1.1), case=LAMPLUGH, name="few")
     assert run_facts(few)["steps"] == run_facts(whole)["steps"]
     for one, other in zip(conftest.snapshot_files(few), conftest.snapshot_files(whole), strict=True):
         first, second = conftest.datasets(one), conftest.datasets(other)
         assert all(values.tobytes() == second[key].tobytes() for key, values in first.items()), one.name
-    rows = history(whole)["time_s"]
     late = [float(np.min(np.abs(rows - due_time))) for due_time in np.arange(0.0, ADAPTIVE_END, SNAPSHOTS)]
     assert late == pytest.approx(np.zeros(len(late)), abs=1e-9), "each snapshot has a row of its time"
 

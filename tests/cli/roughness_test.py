@@ -56,9 +56,6 @@ def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, r
     assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (10.0, WIDTH, 40 * WIDTH)
     assert facts["remaining_slope"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
     assert facts["apparent_friction"] < 0.03
-
-
-def test_unfiltered_noise_has_a_warning(thawslide: Program, rough_case: Path) -> None:
     left = thawslide.json("check", rough_case, *sets(terrain__smooth=0))
     note = next(note for note in left["warnings"] if note.startswith("terrain.smooth: "))
     assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')

@@ -75,7 +75,7 @@ def test_section_of_a_plane_runs_unchanged(ran: Ran, thawslide: Program, maps: M
     assert columns["front_position_m"][-1] > columns["front_position_m"][0] + 0.5
 
 
-def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_section_shares_its_physics_with_new_or_is_a_profile(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     thawslide.ok(*maps.words_with_release(tmp_path / "flat"))
     thawslide.ok("new", tmp_path / "space", "--dem", maps.dem, "--release", maps.release)
     flat, space = (tomllib.loads((tmp_path / name / "case.toml").read_text()) for name in ("flat", "space"))
@@ -83,9 +83,6 @@ def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp
         assert flat[table] == space[table]
     for key in ("temperature", "porosity", "particles_per_axis", "material"):
         assert flat["body"]["slide"][key] == space["body"]["slide"][key]
-
-
-def test_section_without_a_release_writes_the_profile_only(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
     printed = thawslide.ok(*maps.words(folder))
     assert [file.name for file in folder.iterdir()] == ["profile.csv"]
@@ -137,15 +134,8 @@ def test_invalid_lines_and_options_are_reported(thawslide: Program, maps: Maps, 
     write_line(maps.line, STRAIGHT)
     assert "--thickness requires --release" in error(*maps.words(folder, "--thickness", 5))
     assert "--line is required" in error("section", folder, "--dem", maps.dem)
-
-
-def test_an_existing_folder_is_not_changed(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
-    folder = tmp_path / "case"
-    folder.mkdir()
-    (folder / "mine.txt").write_text("mine")
-    message = thawslide.error(*maps.words_with_release(folder))
-    assert message == (f"error: {folder}: it exists and is not an empty folder. Choose another name.\n")
-    assert [file.name for file in folder.iterdir()] == ["mine.txt"]
+    message = thawslide.error(*maps.words_with_release(tmp_path))
+    assert message == f"error: {tmp_path}: it exists and is not an empty folder. Choose another name.\n"
 
 
 def test_block_moves_a_3d_case_along_its_path(thawslide: Program, maps: Maps, tmp_path: Path) -> None:

@@ -43,16 +43,13 @@ def test_areas_of_the_ground_and_gaps_are_reported(thawslide: Program, small_cas
 WIDE = ROOT / "cases" / "lamplugh-columns" / "wide-valley.toml"
 
 
-def test_check_states_the_reference_width_of_values_per_metre(thawslide: Program) -> None:
+def test_a_variable_width_is_stated_resolved_and_kept(thawslide: Program, ran: Ran, tmp_path: Path) -> None:
     printed = thawslide.ok("check", WIDE)
     assert "slide: 84,300 m3 and 174,000 t per metre of the width at x = 2190 m, along 1,050 m; " in printed
     assert "case.width" not in printed, "1,883 m over 2 km is no reason to warn"
     printed = thawslide.ok("check", WIDE, "--set", "case.width={ x = [2190.0, 3190.0], value = [617.0, 2500.0] }")
     lateral = "The neglected lateral motion would have 0.3 of the kinetic energy there."
     assert f"it changes by 1.9 m per m. {lateral}" in printed
-
-
-def test_resolved_case_of_a_run_has_the_width_and_resume_keeps_it(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
     folder = ran("--set", "time.end=0.1", "--threads", "1", case=WIDE, name="wide")
     resolved = (folder / "case.toml").read_text(encoding="utf-8")
     assert "\nwidth = { x = [2190.0, 4190.0], value = [617.0, 2500.0] }  # m\n" in resolved
