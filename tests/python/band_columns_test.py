@@ -61,9 +61,10 @@ def test_boiling_follows_clausius_and_clapeyron() -> None:
     assert np.isnan(boiling_temperature([np.nan, 0.0])).tolist() == [True, False]
 
 
-def test_stresses_and_temperatures_are_in_one_panel_each(columns_run: Path) -> None:
+def test_stresses_temperatures_and_basal_segments_have_their_panels(columns_run: Path) -> None:
     run = Run(columns_run)
-    stresses = titled(FIGURES["band"].plot(run), "(a)")
+    figure = FIGURES["band"].plot(run)
+    stresses = titled(figure, "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
     load, pressure = run.series["band_normal_pressure_Pa"], run.series["band_pore_pressure_Pa"]
     np.testing.assert_allclose(line(stresses, "normal pressure N")[1] * 1e6, load)
@@ -71,7 +72,6 @@ def test_stresses_and_temperatures_are_in_one_panel_each(columns_run: Path) -> N
     np.testing.assert_allclose(line(stresses, "effective stress N − P")[1] * 1e6, load - pressure)
     np.testing.assert_allclose(line(stresses, "shear traction")[1] * 1e6, run.series["band_shear_Pa"])
     assert 'or on N alone for substrates with the law "coefficient"' in FIGURES["band"].caption_of(run)
-    figure = FIGURES["band"].plot(run)
     heat = titled(figure, "(b)")
     np.testing.assert_allclose(line(heat, "mean")[1], run.series["band_temperature_C"])
     np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.series["band_max_temperature_C"])
@@ -80,6 +80,18 @@ def test_stresses_and_temperatures_are_in_one_panel_each(columns_run: Path) -> N
     np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.series["band_saturation"])
     np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
     np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.series["band_max_pressure_ratio"])
+    figure = FIGURES["base_along"].plot(run)
+    stress, heat = figure.axes[-2], figure.axes[-1]
+    x, load = line(stress, "normal pressure N")
+    np.testing.assert_array_equal(x, np.arange(20.0, 40.0))
+    np.testing.assert_allclose(load, 1.0 + 0.01 * x)
+    np.testing.assert_allclose(line(heat, "mean T")[1], 2.0 * x)
+    np.testing.assert_allclose(line(heat, "boiling T at N")[1], boiling_temperature(1.0e6 + 1e4 * x))
+    assert figure.axes[0].get_title(loc="left") != "t = 0 s", "times before the first contact have no panel"
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "normal pressure N", "pore pressure P", "N − P", "maximum T", "mean T", "boiling T at N",
+    ]  # fmt: skip
 
 
 def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
@@ -95,21 +107,6 @@ def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
         assert box.y1 <= panel.y1 and panel.x0 <= box.x0 < box.x1 <= panel.x1
         highest = max(float(np.nanmax(curve.get_ydata())) for curve in stresses.lines)
         assert box.y0 > stresses.transData.transform((0.0, highest))[1]
-
-
-def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
-    figure = FIGURES["base_along"].plot(Run(columns_run))
-    stress, heat = figure.axes[-2], figure.axes[-1]
-    x, load = line(stress, "normal pressure N")
-    np.testing.assert_array_equal(x, np.arange(20.0, 40.0))
-    np.testing.assert_allclose(load, 1.0 + 0.01 * x)
-    np.testing.assert_allclose(line(heat, "mean T")[1], 2.0 * x)
-    np.testing.assert_allclose(line(heat, "boiling T at N")[1], boiling_temperature(1.0e6 + 1e4 * x))
-    assert figure.axes[0].get_title(loc="left") != "t = 0 s", "times before the first contact have no panel"
-    (legend,) = figure.legends
-    assert [text.get_text() for text in legend.get_texts()] == [
-        "normal pressure N", "pore pressure P", "N − P", "maximum T", "mean T", "boiling T at N",
-    ]  # fmt: skip
 
 
 def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
@@ -242,16 +239,13 @@ def bed_run(make_run: MakeRun) -> Path:
     return folder
 
 
-def test_entrained_depth_is_at_the_place_of_joining(bed_run: Path) -> None:
-    edges, depth = entrained_depth(Run(bed_run))
+def test_entrainment_has_a_depth_a_figure_and_a_key_number(bed_run: Path) -> None:
+    run = Run(bed_run)
+    edges, depth = entrained_depth(run)
     cell = int(np.searchsorted(edges, 60.5)) - 1
     assert edges[cell + 1] - edges[cell] == 8.0
     assert depth[cell] == pytest.approx(JOINED * 1.0 / 8.0)  # 1 m3 each per metre of width, in four cells 2 m wide
     assert np.count_nonzero(depth) == 1
-
-
-def test_entrainment_has_a_figure_and_a_key_number(bed_run: Path) -> None:
-    run = Run(bed_run)
     assert "entrainment" in figures_of(run)
     figure = FIGURES["entrainment"].plot(run)
     np.testing.assert_allclose(line(titled(figure, "(b)"), "work of entrainment")[1][-1], 10.0)  # MJ

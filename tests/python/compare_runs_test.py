@@ -23,7 +23,11 @@ def two_runs(make_run: MakeRun) -> list[Run]:
     return [Run(make_run(name="first")), Run(second)]
 
 
-def test_key_numbers_different_keys_and_different_inputs_are_rows(two_runs: list[Run]) -> None:
+def test_histories_key_numbers_and_differences_are_compared(two_runs: list[Run]) -> None:
+    figure = run_histories(names_of(two_runs))
+    assert [len(axes.lines) for axes in figure.axes] == [2] * 6
+    assert [float(np.asarray(line.get_ydata())[-1]) for line in figure.axes[1].lines] == [80.0, 160.0]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["first", "second"]
     rows = {words: values for words, *values in number_rows(names_of(two_runs))}
     assert rows["Mean displacement"] == ["80 m", "160 m"]
     assert rows["Peak mean velocity"] == ["12 m/s (at 5 s)"] * 2
@@ -34,13 +38,6 @@ def test_key_numbers_different_keys_and_different_inputs_are_rows(two_runs: list
         update_facts(run.folder, inputs=inputs)
     rows = case_rows(names_of([Run(run.folder) for run in two_runs]))
     assert rows[-1] == ["SHA-256 of dem.tif", f"{'a' * 16}...", f"{'b' * 16}..."]
-
-
-def test_histories_of_all_runs_are_in_each_panel(two_runs: list[Run]) -> None:
-    figure = run_histories(names_of(two_runs))
-    assert [len(axes.lines) for axes in figure.axes] == [2] * 6
-    assert [float(np.asarray(line.get_ydata())[-1]) for line in figure.axes[1].lines] == [80.0, 160.0]
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["first", "second"]
 
 
 def test_maps_have_one_scale(map_run: Path, tmp_path: Path) -> None:

@@ -107,16 +107,13 @@ def points(values: list[list[float]], order: str = "<") -> bytes:
     return struct.pack(f"{order}I", len(values)) + np.array(values, f"{order}f8").tobytes()
 
 
-def test_lines_have_their_attributes(tmp_path: Path) -> None:
+def test_lines_points_and_polygons_with_holes_are_read_without_heights(tmp_path: Path) -> None:
     line = np.array([[1.0, 2.0], [3.0, 5.0], [7.0, 11.0]])
     write_layer(tmp_path / "a.gpkg", "path", [line_blob(line), line_blob(line + 1.0, envelope=True)])
     first, second = read_layer(tmp_path / "a.gpkg", "path")
     np.testing.assert_array_equal(first.parts[0], line)
     np.testing.assert_array_equal(second.parts[0], line + 1.0)
     assert second.attributes == {"fid": 2, "time_s": 1.5}
-
-
-def test_points_and_polygons_with_holes_are_read_without_heights() -> None:
     np.testing.assert_array_equal(geometry_parts(HEAD + struct.pack("<BI2d", 1, 1, 4.0, 5.0))[0], [[4.0, 5.0]])
     ring, hole = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [0.0, 0.0]], [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0], [1.0, 1.0]]
     polygon = struct.pack("<BII", 1, 3, 2) + points(ring) + points(hole)

@@ -14,18 +14,14 @@ from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from reproduction import lamplugh
-from reproduction.bars import bars
 from thawslide import NotInRunError, Run
 from thawslide.band_pass import band_passed
 from thawslide.figures import FIGURES
 from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalization
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.moments import chosen_snapshots
-from thawslide.figures.snapshots import Zone, velocity
 from thawslide.figures.style import COLUMN_WIDTH, TIME_LABEL, without_title
 from thawslide.figures.window import fit
-from thawslide.number_text import prefixed
 from thawslide.report_page import make_report
 
 SCALE = re.compile("true scale|vertical exaggeration|particles outside")
@@ -146,14 +142,12 @@ def test_three_dimensions_are_projected_and_without_terrain_there_is_no_fill(mak
     np.testing.assert_allclose(centres_and_sizes(panel)[0][:, 1], points[order, 2])
 
 
-def test_ticks_are_round_and_prefixes_give_numbers_below_1000() -> None:
+def test_ticks_are_round() -> None:
     figure = Figure()
     norm, _ = normalization(np.linspace(-9.45, 35.8, 1000), TEMPERATURE)
     bar = figure.colorbar(ScalarMappable(norm), cax=figure.add_subplot(), orientation="horizontal")
     label_bar(bar, norm)
     assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
-    assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
-    assert (prefixed([999.0], "Pa"), prefixed([np.nan], "J")) == ((1.0, "Pa"), (1.0, "J"))
 
 
 def test_window_exaggerates_only_long_flat_sections() -> None:
@@ -233,7 +227,7 @@ def test_reported_values_outside_the_run_are_counted_in_the_legend(make_run: Mak
     ]
 
 
-def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> None:
+def test_seismic_force_has_components_and_reported_maxima_per_width(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["force"].plot(run)
     size, parts = titled(figure, "(a)"), titled(figure, "(b)")
@@ -251,9 +245,6 @@ def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> 
     np.testing.assert_array_equal(strain.get_ydata(), run.series["mean_plastic_strain"])
     space = titled(plotted("force", make_run(name="space", dimension=3)), "(b)")
     assert [found.get_label() for found in space.lines] == ["x (along)", "y (across)", "z (up)"]
-
-
-def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None:
     bare = titled(plotted("force", make_run(name="bare", targets=False)), "(a)")
     assert [found.get_label() for found in bare.lines] == ["run"]
     thin = titled(plotted("force", make_run(name="thin", width=0.0)), "(a)")
@@ -262,7 +253,7 @@ def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None
     assert texts(thin) == ["reported force not shown: no case.width"]
 
 
-def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
+def test_band_has_the_history_with_gaps_or_a_reason(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["band"].plot(run)
     for start, label, column, divisor, axis_label in (
@@ -276,11 +267,8 @@ def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
         assert axes.get_ylabel() == axis_label
     np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
     assert texts(titled(figure, "(a)"))[:2] == ["melting point", "boiling point"]
-
-
-def test_empty_panels_of_the_band_state_the_reason(make_run: MakeRun) -> None:
     unknown = {name: np.full(101, np.nan) for name in ("band_temperature_C", "band_friction_coefficient")}
-    folder = make_run(history=unknown)
+    folder = make_run(name="unknown", history=unknown)
     edit(folder / "history.csv", "band_saturation", "band_other")
     figure = plotted("band", folder)
     found = {letter: texts(titled(figure, f"({letter})")) for letter in "acd"}
@@ -288,7 +276,7 @@ def test_empty_panels_of_the_band_state_the_reason(make_run: MakeRun) -> None:
     assert found == {"a": ["no particles in the band"], "c": no_column, "d": ["no contact"]}
 
 
-def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) -> None:
+def test_energy_terms_are_changes_residuals_relative_and_small_terms_below(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["energy"].plot(run)
     mechanical, thermal, residual = (titled(figure, f"({letter})") for letter in "abc")
@@ -302,9 +290,6 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     assert residual.get_yscale() == "log"
     np.testing.assert_allclose(line(residual, "mechanical")[1][1:], 1e3 * t[1:] / 1e13)
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
-
-
-def test_small_energy_terms_are_named_below_the_figure(make_run: MakeRun) -> None:
     for size, is_shown in ((0.0049, False), (0.0051, True)):  # of the potential energy
         damping = {"damping_J": np.linspace(0.0, size * 1e13, 101)}
         figure = plotted("energy", make_run(name=f"run {is_shown}", history=damping))
@@ -352,26 +337,6 @@ def test_scale_of_high_temperatures_is_logarithmic_up_to_the_maximum(make_run: M
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("temperature (°C)")]
     assert bar.get_xlabel() == "temperature (°C), logarithmic scale above 10 °C"
     assert [label.get_text() for label in bar.get_xticklabels()][-2:] == ["100", "4,320"]
-
-
-def test_zones_are_between_dotted_lines(make_run: MakeRun) -> None:
-    run = Run(make_run())
-    left, right = titled(velocity(run), "whole profile").get_xlim()
-    ends = np.linspace(left, right, 5)
-    names = [Zone("B", ends[1], ends[2]), Zone("C", ends[2], ends[3]), Zone("far", right, right + 10.0)]
-    profile = titled(velocity(run, names), "whole profile")
-    dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
-    assert dotted == pytest.approx(ends[1:4])
-    assert texts(profile) == ["B", "C"]
-
-
-def test_bars_mark_the_endings_of_runs() -> None:
-    quantities = [("stop (s)", [100.0, np.nan, np.nan, 150.0]), ("runout (km)", [6.0, 20.0, np.nan, 7.0])]
-    figure = bars(["the case", "moving", "failed", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
-    marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
-    assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
-    words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert words[1] == "failed run: no value" and len(words) == 4  # no entry for endings that do not occur
 
 
 def test_runs_that_split_particles_show_the_velocities_of_the_file(make_run: MakeRun) -> None:
@@ -422,14 +387,3 @@ def test_images_have_150_dots_per_inch(make_run: MakeRun, name: str) -> None:
     image = make_report(Run(make_run()), names=[name]).figures[name].read_bytes()
     width = struct.unpack(">I", image[16:20])[0]  # of a PNG's first block
     assert width == int(150 * COLUMN_WIDTH)
-
-
-def test_profile_of_a_deposit_states_its_exaggeration(make_run: MakeRun, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
-    monkeypatch.setattr(lamplugh, "zones", lambda run: [])
-    figure = lamplugh.figure_deposit({"lamplugh": Run(make_run())})
-    section = figure.axes[0]
-    width, height = figure.get_size_inches() * section.get_position().size
-    (left, right), (low, top) = section.get_xlim(), section.get_ylim()
-    times = 1e3 * (right - left) / width * height / (top - low)
-    assert section.get_title(loc="left") == f"(a) profile, vertical exaggeration {times:.2g}×"

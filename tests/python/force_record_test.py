@@ -66,7 +66,7 @@ def write_long_run(folder: Path, towards: float = 1.0) -> None:
     write_history(folder / "history.csv", columns)
 
 
-def test_curves_of_equal_forces_coincide(folder: Path) -> None:
+def test_curves_are_the_filtered_history_and_of_equal_forces_coincide(folder: Path) -> None:
     run = Run(folder)
     figure = FIGURES["force_record"].plot(run)
     for axes in figure.axes[:2]:
@@ -88,11 +88,6 @@ def test_curves_of_equal_forces_coincide(folder: Path) -> None:
     words = f"From maximum upward to maximum downward force: {times}"
     assert figure.get_supxlabel().replace("\n", " ") == words, "below the panels, away from the curves"
     assert not figure.axes[0].texts
-
-
-def test_curves_are_the_filtered_history_along_the_motion(folder: Path) -> None:
-    run = Run(folder)
-    figure = FIGURES["force_record"].plot(run)
     time = run.series["time_s"]
     for panel, axis in ((0, "y"), (1, "x")):
         curve_time, curve = line(figure.axes[panel], "run")

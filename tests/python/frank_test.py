@@ -1,6 +1,5 @@
 """Comparisons with SHALTOP and of cells: deposits, orders of convergence, and the tables of docs/refinement.md."""
 
-import json
 import math
 from pathlib import Path
 
@@ -81,24 +80,6 @@ def test_results_of_shaltop_are_as_published(angle: int) -> None:
     assert pile.volume() == pytest.approx(36.0e6, rel=1e-4)
     found = frank.figures(frank.read_shaltop(DATA, angle, terrain), terrain, pile)
     assert (round(found.area, 2), round(found.x), round(found.y), round(found.farthest)) == PUBLISHED[angle]
-
-
-@pytest.mark.parametrize("power", [0.5, 1.0, 2.0])
-def test_order_and_limit_of_a_power_law_are_exact(power: float) -> None:
-    values = [1_000.0 - 3.0 * cell**power for cell in (20.0, 10.0, 5.0)]
-    found = refinement.order(*values)
-    assert found == pytest.approx(power)
-    assert refinement.limit(values[1], values[2], found) == pytest.approx(1_000.0)
-    assert math.isnan(refinement.order(1.0, 2.0, 1.5)) and math.isnan(refinement.order(1.0, 1.0, 1.0))
-
-
-@pytest.mark.parametrize("cell", refinement.ALR_CELLS)
-def test_domain_of_each_cell_is_a_whole_number_of_cells(cell: float) -> None:
-    low, high = (np.array(json.loads(change.split("=")[1])) for change in refinement.alr_domain(cell))
-    counts = (high - low) / cell
-    assert counts == pytest.approx(np.round(counts), abs=1e-6)
-    longer = high - low - [2046.0, 4521.0, 2059.2]
-    assert (longer[:2] <= 1e-9).all() and longer[2] >= -1e-9 and (np.abs(longer) < cell).all()
 
 
 def deposit(cell: float) -> Deposit:

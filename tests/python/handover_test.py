@@ -83,7 +83,7 @@ def test_dems_elsewhere_in_another_system_and_for_both_placements_are_refused(ru
         terrain_after(with_placement(run, "cut", "on_top"), dem)
 
 
-def test_moving_bottom_is_the_change_of_thickness(run: Run, tmp_path: Path) -> None:
+def test_moving_bottom_is_the_change_of_thickness_at_equal_intervals(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "slide.tt3"
     grid, times = write_dtopo(run, path)
     lines = path.read_text().splitlines()
@@ -101,9 +101,6 @@ def test_moving_bottom_is_the_change_of_thickness(run: Run, tmp_path: Path) -> N
     at_end = int((60.0 + SPEED * 10.0 + 0.5 * LENGTH) // CELL)
     assert last[at_release[1], at_end] == pytest.approx(THICKNESS, rel=1e-3)
     assert len(times) == 6 and grid.columns == COLUMNS
-
-
-def test_a_moving_bottom_has_equal_intervals_and_ends_at_rest(run: Run, tmp_path: Path) -> None:
     for number, time in enumerate((0.0, 4.0, 8.0, 10.0)):
         map_runs.write_particles(snapshot_file(run.folder, number), time)
     for number in (4, 5):
@@ -143,7 +140,7 @@ def test_hydrographs_are_those_of_the_lines(run: Run, tmp_path: Path) -> None:
         hydrographs(Run(run.folder))
 
 
-def test_assets_have_the_values_of_the_slab(run: Run) -> None:
+def test_assets_have_the_largest_values_of_the_slab(run: Run, tmp_path: Path) -> None:
     hut, barn = assets_hit(run, points=[("hut", WEST + 300.0, MIDDLE), ("barn", WEST + 300.0, SOUTH + 5.0)])
     assert hut.max_pressure_kpa == pytest.approx(1900.0 * SPEED**2 * 1e-3)
     assert hut.max_thickness_m == THICKNESS and hut.max_speed_m_s == SPEED
@@ -151,10 +148,6 @@ def test_assets_have_the_values_of_the_slab(run: Run) -> None:
     assert hut.is_hit and not barn.is_hit and np.isnan(barn.arrival_time_s)
     with pytest.raises(ReportError, match=r"hut: outside the maps of the run \(found x = 0"):
         assets_hit(run, points=[("hut", 0.0, 0.0)])
-
-
-def test_polygon_has_the_largest_values_of_its_cells(run: Run, tmp_path: Path) -> None:
-    """Four polygons with different attributes reach from outside the path of the slab into it."""
     west, south = WEST + 290.0, SOUTH
     ring = [[west, south], [west + 30.0, south], [west + 30.0, MIDDLE], [west, MIDDLE], [west, south]]
     system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::31287"}}

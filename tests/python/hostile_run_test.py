@@ -82,12 +82,6 @@ def test_damage_is_named(make_run: MakeRun, capsys: pytest.CaptureFixture[str], 
     assert bool(page) == bool(page_expected)
 
 
-def test_damaged_snapshots_have_no_times(make_run: MakeRun) -> None:
-    folder = make_run()
-    damage_snapshots(folder)
-    assert Run(folder, skip_damaged=True).times.tolist() == [0.0, 1.0, 2.0, 4.0, 6.0, 7.0, 8.0, 9.0, 10.0]
-
-
 def test_damaged_field_affects_only_its_figures(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
     folder = make_run()
     with h5py.File(snapshot_file(folder, 4), "a") as file:

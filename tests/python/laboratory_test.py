@@ -7,7 +7,6 @@ import pytest
 
 from reproduction.studies import laboratory, laboratory_page
 from reproduction.study import Place
-from reproduction.tables import rewrapped
 
 
 def test_windows_contain_the_whole_volume_and_are_half_as_wide_at_the_wall() -> None:
@@ -81,11 +80,8 @@ def test_figure_of_bars_has_runs_and_measurements() -> None:
             np.testing.assert_array_equal(line.get_data(), measured)
 
 
-def test_table_of_bars_has_offsets_and_stays_in_the_page() -> None:
+def test_table_of_bars_has_offsets() -> None:
     found = {("flip", 10.0): bars(10.0, 0.002), ("flip", 5.0): bars(5.0, -0.003)}
     rows = [line.split(" | ") for line in laboratory_page.bar_table(found).splitlines()]
     assert (rows[2][1:], rows[3][1:]) == (["2.0", "3.0 |"], ["+2.0", "-3.0 |"])
     assert (rows[4][1:], rows[5][1:]) == (["+2", "-3 |"], ["", "5.0 |"])
-    page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
-    long = ["- " + "word " * 22 + "word", "  " + "word " * 16 + "word"]
-    assert rewrapped(page).splitlines() == ["# Title", "", "- one two", *long, "", "| a |", "| --- |", "", "last"]

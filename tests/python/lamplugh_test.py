@@ -6,7 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import MakeRun, change_snapshot, write_history
+from figure_parts import texts, titled
 
+from reproduction import lamplugh
+from reproduction.bars import bars
 from reproduction.engine import at_rest
 from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
 from reproduction.one_at_a_time import Outcome, end_of, outcome, table, table_row
@@ -14,6 +17,7 @@ from reproduction.point_masses import GRAVITY, Friction, move, smooth_profile
 from reproduction.runs import LAMPLUGH_BLOCKS
 from reproduction.study import Job
 from thawslide import Run
+from thawslide.figures.snapshots import Zone, velocity
 
 
 def write_ground(folder: Path) -> None:
@@ -140,3 +144,34 @@ def test_a_chain_has_one_acceleration() -> None:
     inner = slice(5, -5)
     assert found.along[0, inner] == pytest.approx(-0.5 * common * (1.0 + np.cos(ANGLE)), rel=1e-3)
     assert found.up[0, inner] == pytest.approx(0.5 * common * np.sin(ANGLE), rel=1e-3)
+
+
+def test_zones_are_between_dotted_lines(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    left, right = titled(velocity(run), "whole profile").get_xlim()
+    ends = np.linspace(left, right, 5)
+    names = [Zone("B", ends[1], ends[2]), Zone("C", ends[2], ends[3]), Zone("far", right, right + 10.0)]
+    profile = titled(velocity(run, names), "whole profile")
+    dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
+    assert dotted == pytest.approx(ends[1:4])
+    assert texts(profile) == ["B", "C"]
+
+
+def test_bars_mark_the_endings_of_runs() -> None:
+    quantities = [("stop (s)", [100.0, np.nan, np.nan, 150.0]), ("runout (km)", [6.0, 20.0, np.nan, 7.0])]
+    figure = bars(["the case", "moving", "failed", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
+    marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
+    assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert words[1] == "failed run: no value" and len(words) == 4  # no entry for endings that do not occur
+
+
+def test_profile_of_a_deposit_states_its_exaggeration(make_run: MakeRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
+    monkeypatch.setattr(lamplugh, "zones", lambda run: [])
+    figure = lamplugh.figure_deposit({"lamplugh": Run(make_run())})
+    section = figure.axes[0]
+    width, height = figure.get_size_inches() * section.get_position().size
+    (left, right), (low, top) = section.get_xlim(), section.get_ylim()
+    times = 1e3 * (right - left) / width * height / (top - low)
+    assert section.get_title(loc="left") == f"(a) profile, vertical exaggeration {times:.2g}×"

@@ -33,7 +33,7 @@ def test_map_has_grid_unit_and_perhaps_a_reference_system(tmp_path: Path) -> Non
     assert read_map(tmp_path / "a.tif").crs == ""
 
 
-def test_cropped_map_has_the_cells_of_the_box() -> None:
+def test_maps_are_cropped_and_interpolated_within_their_box() -> None:
     x, y = centres()
     whole = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
     part = whole.cropped((WEST + 20.0, WEST + 41.0, SOUTH - 100.0, SOUTH + 10.0))
@@ -41,9 +41,15 @@ def test_cropped_map_has_the_cells_of_the_box() -> None:
     np.testing.assert_array_equal(part.values, whole.values[:1, 2:5])
     assert part.grid.x0 == WEST + 25.0
     assert whole.cropped((WEST + 1e6, WEST + 2e6, SOUTH, SOUTH + 5.0)).values.shape == (1, 1)
+    at_x, at_y = WEST + np.array([5.0, 123.4, 595.0]), SOUTH + np.array([5.0, 77.7, 295.0])
+    np.testing.assert_allclose(whole.at(at_x, at_y), ground(at_x, at_y), rtol=1e-12)
+    assert np.isnan(whole.at(np.array([WEST + 4.0]), np.array([SOUTH + 50.0]))).all()
+    whole.values[3, 4] = np.nan
+    near = whole.at(np.array([WEST + 40.0, WEST + 35.0]), np.array([SOUTH + 35.0, SOUTH + 35.0]))
+    assert np.isnan(near[0]) and np.isfinite(near[1])
 
 
-def test_thinning_keeps_means_maxima_and_volume() -> None:
+def test_thinned_and_averaged_maps_keep_means_and_volume() -> None:
     values = np.arange(35, dtype=float).reshape(5, 7)
     values[0, 0] = values[2:4, 2:4] = np.nan
     whole = Map(Grid(0.5, 0.5, 1.0, 1.0, 7, 5), values)
@@ -55,9 +61,6 @@ def test_thinning_keeps_means_maxima_and_volume() -> None:
     values = np.random.default_rng(1).random((12, 18))
     whole = Map(Grid(0.0, 0.0, 2.0, 3.0, 18, 12), values)
     assert whole.thinned(6).volume() == pytest.approx(whole.volume(), rel=1e-12)
-
-
-def test_means_over_other_cells_are_weighted_by_area() -> None:
     values = np.array([[1.0, 2.0, 4.0], [np.nan, 8.0, 16.0]])
     fine = Map(Grid(1.0, 1.0, 2.0, 2.0, 3, 2), values)  # 0..6 by 0..4 m
     found = fine.averaged_over(Grid(1.5, 2.0, 3.0, 4.0, 3, 1))
@@ -66,17 +69,6 @@ def test_means_over_other_cells_are_weighted_by_area() -> None:
     np.testing.assert_allclose(fine.averaged_over(fine.grid).values, np.nan_to_num(values))
     whole = fine.averaged_over(Grid(-0.7, 1.2, 1.7, 3.0, 6, 3))
     assert whole.volume() == pytest.approx(fine.volume(), rel=1e-12)
-
-
-def test_interpolation_is_linear_and_ends_with_the_map() -> None:
-    x, y = centres()
-    field = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
-    at_x, at_y = WEST + np.array([5.0, 123.4, 595.0]), SOUTH + np.array([5.0, 77.7, 295.0])
-    np.testing.assert_allclose(field.at(at_x, at_y), ground(at_x, at_y), rtol=1e-12)
-    assert np.isnan(field.at(np.array([WEST + 4.0]), np.array([SOUTH + 50.0]))).all()
-    field.values[3, 4] = np.nan
-    near = field.at(np.array([WEST + 40.0, WEST + 35.0]), np.array([SOUTH + 35.0, SOUTH + 35.0]))
-    assert np.isnan(near[0]) and np.isfinite(near[1])
 
 
 def test_maps_of_a_run_on_a_dem_are_read_by_name(map_run: Path) -> None:

@@ -163,7 +163,7 @@ def test_members_have_the_times_of_their_runs(make_run: MakeRun) -> None:
     np.testing.assert_allclose(marks.get_data(), [[START, START + 2.0], [8.0, 11.0]], atol=2e-3)
 
 
-def test_rows_scale_step_and_viscosity_and_shift_the_domain() -> None:
+def test_rows_have_the_multiples_in_their_names() -> None:
     rows = {row.key: row.sets for row in numerics.cell_rows()}
     assert len(rows) == 9
     assert rows["e-0.21-cell-5"] == (
@@ -172,6 +172,22 @@ def test_rows_scale_step_and_viscosity_and_shift_the_domain() -> None:
     assert next(iter(rows)).endswith("cell-5"), "the long runs first"
     shifted = {row.key: row.sets for row in numerics.numerics_rows()}
     assert shifted["quarter-shift"] == ("grid.min=[-202.5,197.5]", "grid.max=[13997.5,2397.5]")
+    case = tomllib.loads((ROOT / "cases" / "lamplugh-columns" / "case.toml").read_text(encoding="utf-8"))
+    rock = case["material"]["rock_ice"]
+    assert (case["grid"]["cell"], case["time"]["step"]) == (numerics.CELL, numerics.STEP_PER_CELL * numerics.CELL)
+    assert rock["viscosity_time"] == numerics.VISCOSITY_PER_CELL * numerics.CELL
+    assert (*case["grid"]["min"], *case["grid"]["max"]) == tuple(numerics.DOMAIN[k] for k in (0, 2, 1, 3))
+    rows = {row.key: dict(each.split("=") for each in row.sets) for row in numerics.numerics_rows()}
+    factors = {
+        "half-modulus": (0.5, 1.0, 1.0), "twice-modulus": (2.0, 1.0, 1.0), "soft": (0.5, 2.0, 1.0),
+        "softest": (0.25, 4.0, 1.0), "stiff": (2.0, 0.5, 1.0), "half-viscosity": (1.0, 0.5, 1.0),
+        "twice-viscosity": (1.0, 2.0, 1.0), "half-slip": (1.0, 1.0, 0.5), "twice-slip": (1.0, 1.0, 2.0),
+        "fine-same-viscosity": (1.0, 1.0, 1.0),
+    }  # fmt: skip
+    for key, of_row in factors.items():
+        for name, factor in zip(("youngs_modulus", "viscosity_time", "softening_slip"), of_row, strict=True):
+            value = float(rows[key].get(f"material.rock_ice.{name}", rock[name]))
+            assert abs(value / rock[name] - factor) < 1e-9, (key, name)
 
 
 def test_tables_have_differences_of_the_finer_two_and_from_the_case() -> None:
@@ -195,22 +211,3 @@ def test_tables_have_differences_of_the_finer_two_and_from_the_case() -> None:
     assert lines[0] == "| run | runout [km] | peak [m/s] | mean displacement [km] | set |"
     assert lines[2] == "| half the time step | 9.3 (+3.0 %) | 80.0 (+0.0 %) | 4.90 (−2.0 %) | `time.step=0.005` |"
     assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"
-
-
-def test_rows_have_the_multiples_in_their_names() -> None:
-    case = tomllib.loads((ROOT / "cases" / "lamplugh-columns" / "case.toml").read_text(encoding="utf-8"))
-    rock = case["material"]["rock_ice"]
-    assert (case["grid"]["cell"], case["time"]["step"]) == (numerics.CELL, numerics.STEP_PER_CELL * numerics.CELL)
-    assert rock["viscosity_time"] == numerics.VISCOSITY_PER_CELL * numerics.CELL
-    assert (*case["grid"]["min"], *case["grid"]["max"]) == tuple(numerics.DOMAIN[k] for k in (0, 2, 1, 3))
-    rows = {row.key: dict(each.split("=") for each in row.sets) for row in numerics.numerics_rows()}
-    factors = {
-        "half-modulus": (0.5, 1.0, 1.0), "twice-modulus": (2.0, 1.0, 1.0), "soft": (0.5, 2.0, 1.0),
-        "softest": (0.25, 4.0, 1.0), "stiff": (2.0, 0.5, 1.0), "half-viscosity": (1.0, 0.5, 1.0),
-        "twice-viscosity": (1.0, 2.0, 1.0), "half-slip": (1.0, 1.0, 0.5), "twice-slip": (1.0, 1.0, 2.0),
-        "fine-same-viscosity": (1.0, 1.0, 1.0),
-    }  # fmt: skip
-    for key, of_row in factors.items():
-        for name, factor in zip(("youngs_modulus", "viscosity_time", "softening_slip"), of_row, strict=True):
-            value = float(rows[key].get(f"material.rock_ice.{name}", rock[name]))
-            assert abs(value / rock[name] - factor) < 1e-9, (key, name)

@@ -7,16 +7,14 @@ import numpy as np
 import pytest
 from conftest import ROOT, MakeRun, change_snapshot, column_history, history_columns, numbers, write_history
 from figure_parts import labels, line, maps_of, plotted, titled
-from matplotlib.colors import PowerNorm, to_rgba
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from thawslide import Run
 from thawslide.figures import FIGURES
 from thawslide.figures.colours import THIN, painted_values
-from thawslide.figures.maximum_maps import _EXTENT, _norm
 from thawslide.figures.moments import chosen_snapshots, moments, shown_snapshot
 from thawslide.figures.style import TIME_LABEL
-from thawslide.maps import Maps
 from thawslide.targets import read_targets
 
 
@@ -71,14 +69,11 @@ def test_last_velocities_of_a_moving_mass_are_those_of_the_last_time(make_run: M
     assert velocity_label(run) == "speed (m/s), 2 s mean; at 0 and 10 s: instantaneous"
 
 
-def test_last_velocities_at_rest_are_means_of_the_last_interval(make_run: MakeRun) -> None:
+def test_last_velocities_at_rest_are_means_of_the_last_interval_without_vibration(make_run: MakeRun) -> None:
     for since, words in ((9.5, "; at 10 s: mean of the last 1 s"), (8.0, "")):
         facts = {"at_rest": True, "rest_since_s": since}
         run = Run(make_run(name=f"{since}", times="[5.0, 10.0]", facts=facts))
         assert velocity_label(run) == f"speed (m/s), 2 s mean{words}"
-
-
-def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
     folder = make_run(times="[10.0]", facts={"at_rest": True, "rest_since_s": 8.0})
     points = Run(folder).snapshot(8).points
     for number in (9, 10):
@@ -106,10 +101,6 @@ def test_maps_have_a_colour_of_thin_margins_and_velocities_of_displacement(map_r
         assert norm(thickness) == pytest.approx(np.sqrt((thickness - 0.1) / 5.9)), "thin margins have a sufficient part"
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("flow thickness")]
     assert [label.get_text() for label in bar.get_xticklabels()] == ["0.1", "0.2", "0.5", "1", "2", "5"]
-    for name in ("max_thickness", "final_thickness"):
-        values = Maps(Run(map_run))[name].values
-        shown = _norm(values[values > 0.1], next(kind for kind in _EXTENT if kind.name == name))[0]
-        assert shown.vmax == pytest.approx(values.max()) and isinstance(shown, PowerNorm)
     run = Run(map_run)
     shot = shown_snapshot(run, 3)
     before, after = run.snapshot(2), run.snapshot(4)
@@ -145,15 +136,12 @@ def test_curves_have_the_times_of_the_run(folder: Path, name: str) -> None:
         np.testing.assert_array_equal(curve.get_xdata(), run.series["time_s"])
 
 
-def test_reported_values_are_shifted_to_the_times_of_the_run(folder: Path) -> None:
+def test_reported_values_snapshots_and_columns_have_the_times_of_the_run(folder: Path) -> None:
     run = Run(folder)
     assert [target.time for target in run.targets] == pytest.approx([START, START + 2.0], abs=2e-3)
     speed = FIGURES["motion"].plot(run).axes[0]
     np.testing.assert_allclose(line(speed, "reported: x"), [[START + 2.0], [9.0]], atol=2e-3)
     assert np.interp(run.targets[0].time, *line(speed, "mean (mass-weighted)")) == pytest.approx(8.0, abs=0.01)
-
-
-def test_snapshots_page_and_figures_of_band_columns_have_the_times_of_the_run(folder: Path) -> None:
     assert panels_of(plotted("velocity", folder)) == ["(a) t = 0 s", "(b) t = 4 s", "(c) t = 7 s"]
     assert numbers(Run(folder))["Peak mean velocity"][1] == "at 5 s"
     write_history(folder / "history.csv", column_history())

@@ -115,15 +115,6 @@ def test_command_lists_missing_figures(make_run: MakeRun, capsys: pytest.Capture
     assert "<h2>Missing figures</h2>" in page and "velocity.png" not in page
 
 
-def test_command_writes_the_requested_figures_into_the_output_folder(make_run: MakeRun, tmp_path: Path) -> None:
-    folder = make_run()
-    output = tmp_path / "elsewhere"
-    assert main([str(folder), "--output", str(output), "--only", "band,motion", "--dpi", "50"]) == 0
-    assert sorted(path.name for path in (output / "figures").iterdir()) == ["band.png", "motion.png"]
-    assert (output / "report.html").is_file()
-    assert not (folder / "figures").exists()
-
-
 def test_command_errors_state_problem_and_remedy(make_run: MakeRun, tmp_path: Path, fails: Fails) -> None:
     folder = make_run(snapshots=0)
     fails([], "error: RUN: not specified. Specify a run folder, e.g. thawslide-report runs/lamplugh.")

@@ -82,14 +82,6 @@ def test_invalid_name_of_targets_is_an_error(make_run: MakeRun, name: str) -> No
     expect(folder, "case.toml: report.targets: cannot be read (found '" + name[:4])
 
 
-def test_incomplete_last_row_is_ignored_with_a_warning(make_run: MakeRun) -> None:
-    folder = make_run(rows=11)
-    (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-20])
-    run = Run(folder)
-    assert (run.series.rows, run.series["time_s"][-1]) == (10, 9.0)
-    assert run.warnings == [f"{folder / 'history.csv'}: the last row is incomplete and is ignored"]
-
-
 def test_missing_and_incomplete_snapshots_are_errors(make_run: MakeRun) -> None:
     folder = make_run(snapshots=3)
     with h5py.File(snapshot_file(folder, 0), "a") as file:

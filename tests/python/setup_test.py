@@ -77,8 +77,9 @@ def legend_of(figure: Figure) -> list[str]:
     return [text.get_text() for text in figure.legends[0].get_texts()]
 
 
-def test_both_panels_and_the_legend_have_all_parts(write: Write) -> None:
-    overview, zoom = plotted_section(write(section())).axes
+def test_both_panels_have_all_parts_and_borders_of_cells(write: Write) -> None:
+    figure = plotted_section(write(section()))
+    overview, zoom = figure.axes
     assert overview.get_title(loc="left") == "(a) whole domain, true scale; box: (b)"
     assert zoom.get_title(loc="left") == "(b) bodies, true scale, cells of 0.2 m"
     assert (zoom.get_xlabel(), zoom.get_ylabel()) == ("distance (m)", "elevation (m)")
@@ -92,7 +93,6 @@ def test_both_panels_and_the_legend_have_all_parts(write: Write) -> None:
     assert left < -1.0 and right > 6.0
     (box,) = [p for p in overview.patches if not p.get_hatch()]
     assert (box.get_x(), box.get_x() + box.get_width()) == pytest.approx(zoom.get_xlim())
-    figure = plotted_section(write(section()))
     assert legend_of(figure) == [
         "block (ice): 50 particles, spacing 0.1 m", "terrain", "frame pusher, 2 m/s along x", "roller: x min, x max",
         "fixed: y min", "open: y max",
@@ -100,10 +100,6 @@ def test_both_panels_and_the_legend_have_all_parts(write: Write) -> None:
     sides = [found for found in figure.axes[0].lines if found.get_color() == "black"]
     assert [found.get_linestyle() for found in sides] == ["--", "--", "-", ":"]
     assert list(sides[2].get_ydata()) == [-0.4, -0.4]
-
-
-def test_grid_lines_are_borders_of_cells_and_thinned_if_small(write: Write) -> None:
-    _, zoom = plotted_section(write(section())).axes
     (grid,) = [c for c in zoom.collections if isinstance(c, LineCollection)]
     upright = sorted(s[0][0] for s in (np.asarray(p.vertices) for p in grid.get_paths()) if s[0][0] == s[1][0])
     left, right = zoom.get_xlim()
