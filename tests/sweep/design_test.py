@@ -70,7 +70,7 @@ def test_invalid_designs_are_refused(words: str, make: Callable[[], object]) -> 
         make()
 
 
-def test_lists_have_values_of_toml_or_text_and_steps_both_ends() -> None:
+def test_lists_and_distributions_have_their_values() -> None:
     assert parse_levels("band.thickness=0.05,0.1,0.2") == Levels("band.thickness", (0.05, 0.1, 0.2))
     assert parse_levels("basal.friction=coulomb,lubricated").values == ("coulomb", "lubricated")
     assert parse_levels("heat.steam=true,false").values == (True, False)
@@ -78,9 +78,6 @@ def test_lists_have_values_of_toml_or_text_and_steps_both_ends() -> None:
     assert parse_levels("basal.friction_angle=20:30:5").values == (20, 25, 30)
     assert parse_levels("band.thickness=0.1:0.3:0.1").values == (0.1, 0.2, 0.3)
     assert parse_levels("band.thickness=0.1:0.35:0.1").values == (0.1, 0.2, 0.3)
-
-
-def test_distributions_have_their_quantiles() -> None:
     uniform = parse_distribution("range", "k=2:4")
     assert uniform == Uniform("k", 2.0, 4.0) and uniform.at(0.25) == 2.5
     normal = parse_distribution("normal", "k=10:2")

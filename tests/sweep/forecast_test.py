@@ -118,7 +118,7 @@ def error(capfd: Capture, *words: object) -> str:
     return capfd.readouterr().err.splitlines()[-1]
 
 
-def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: Capture) -> None:
+def test_errors_state_the_reason_and_the_remedy(slope: Path, tmp_path: Path, capfd: Capture) -> None:
     file, output = slope / "sweep.toml", ("--output", tmp_path / "forecast")
     for text, words in (
         (SWEEP.replace("lhs:12", "lhs:6"), "too few members with H/L of a rigid block (found 6 of 6; needed 10)"),
@@ -141,9 +141,6 @@ def test_errors_state_the_remedy(slope: Path, tmp_path: Path, capfd: Capture) ->
     file.unlink()
     words = "sweep.toml: no such file. Write it: its table [sweep] lists the case and the varied keys"
     assert words in error(capfd, slope, *output)
-
-
-def test_a_kind_with_few_events_names_the_reason(slope: Path, capfd: Capture) -> None:
     for kind, words in (
         ("rock and ice", '"rock and ice": fewer than 5 published events of a similar volume; allowed: rock'),
         ("snow", '"snow"; allowed: rock'),

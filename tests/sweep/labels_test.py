@@ -17,7 +17,7 @@ from thawslide.sweeps.sensitivity import MORRIS, Index, indices_of
 from thawslide.sweeps.variables import Uniform
 
 
-def test_keys_results_and_histories_have_declared_names_and_units(with_program: None) -> None:
+def test_keys_results_and_axes_have_declared_names_and_units(with_program: None) -> None:
     assert label_of_key("basal.friction_angle") == "basal.friction_angle (degrees)"
     assert label_of_key("body.slide.temperature") == "body.slide.temperature (°C)"
     assert label_of_key("basal.friction") == "basal.friction" and label_of_key("case") == "case"
@@ -27,9 +27,6 @@ def test_keys_results_and_histories_have_declared_names_and_units(with_program: 
     assert label_of_result("own") == "own"
     assert {"time_s", "runout_m", "basal_force_y_N"} <= {*declared_columns(is_block=False)}
     assert "velocity_m_s" in declared_columns(True) and "velocity_m_s" not in declared_columns(False)
-
-
-def test_axes_have_names_and_units(with_program: None) -> None:
     table = pd.DataFrame({"band.thickness": [0.1, 0.2, 0.3], "peak_speed_m_s": [3.0, 2.0, 1.0]})
     axes = scatter(table, ["band.thickness"], ["peak_speed_m_s"]).axes[0]
     assert axes.get_xlabel() == "band.thickness (m)" and axes.get_ylabel() == "peak speed (m/s)"

@@ -193,11 +193,6 @@ def test_dates_and_times_are_texts(text: str) -> None:
     assert parse_levels(f"case.title={text},a").values == (text, "a")
 
 
-def test_dates_are_titles_of_members(slope: Path, tmp_path: Path) -> None:
-    command = [str(slope), "--block", "--vary", "case.title=2025-05-28,2025-06-01", "--set", "time.end=0.1"]
-    assert main([*command, "--output", str(tmp_path / "sweep")]) == 0
-
-
 @pytest.mark.parametrize(
     ("content", "message"),
     [

@@ -68,12 +68,9 @@ def test_values_are_converted_and_paths_are_relative_to_the_file(tmp_path: Path)
     assert found.record is not None and found.record.band.longest == 200.0
 
 
-def test_columns_of_quantities_are_those_of_the_table_of_members() -> None:
+def test_quantities_are_columns_of_members_and_on_the_page() -> None:
     computed = {"duration_s", "mean_speed_m_s"}
     assert {quantity.column for quantity in QUANTITIES.values()} - computed <= NUMBERS.keys()
     assert set(QUANTITIES) < set(TABLES)
-
-
-def test_the_page_lists_all_tables() -> None:
     page = (Path(__file__).parents[2] / "docs" / "how-to" / "score-a-forecast.md").read_text(encoding="utf-8")
     assert [name for name in TABLES if f"`[{name}]`" not in page and f"`[[{name}]]`" not in page] == []

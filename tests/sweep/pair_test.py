@@ -53,7 +53,7 @@ def cone(radius: float, x: float = 0.0, cell: float = 5.0) -> Map:
     return Map(grid, np.maximum(0.0, 1.0 + 0.02 * (radius - distance)), "m", "", "", "")
 
 
-def test_distance_of_circles_is_the_difference_of_their_radii() -> None:
+def test_distance_of_circles_is_the_difference_of_their_outlines() -> None:
     larger = outline_distance(cone(150.0), cone(120.0), 1.0)
     smaller = outline_distance(cone(120.0, cell=10.0), cone(150.0), 1.0)
     assert larger is not None and smaller is not None
@@ -61,9 +61,6 @@ def test_distance_of_circles_is_the_difference_of_their_radii() -> None:
         assert found.mean == pytest.approx(mean, abs=0.2)
         assert found.rms == pytest.approx(30.0, abs=0.2)
         assert found.largest == pytest.approx(30.0, abs=0.4)
-
-
-def test_distance_of_a_shifted_circle_has_no_mean() -> None:
     shift, radius = 12.0, 150.0
     found = outline_distance(cone(radius, shift), cone(radius), 1.0)
     assert found is not None
@@ -71,9 +68,6 @@ def test_distance_of_a_shifted_circle_has_no_mean() -> None:
     exact = np.hypot(radius * np.cos(along) + shift, radius * np.sin(along)) - radius
     assert found.mean == pytest.approx(exact.mean(), abs=0.1)
     assert found.rms == pytest.approx(np.sqrt(np.mean(exact**2)), rel=0.02)
-
-
-def test_without_an_outline_there_is_no_distance() -> None:
     assert outline_distance(cone(150.0), cone(-200.0), 1.0) is None
 
 

@@ -169,7 +169,7 @@ def test_blocks_that_leave_a_short_dem_share_the_weight_of_lower_events(tmp_path
     assert np.ptp(weights[is_limit]) < 0.2 * weights[is_limit].mean()
 
 
-def test_blocks_that_leave_are_reported() -> None:
+def test_blocks_that_leave_are_limits_and_those_at_rest_have_no_weight() -> None:
     blocks = forecast(list(np.linspace(0.25, 0.6, 40)), moving=15)
     blocks.columns[LEFT] = np.where(np.arange(40) < 12, 50.0, np.nan)
     prior = check_prior(blocks, VOLUME, "", True)
@@ -182,6 +182,12 @@ def test_blocks_that_leave_are_reported() -> None:
     lines = prior_lines(prior.as_table())
     assert "≤ 0.26" in lines[2] and lines[2].split()[-1] == "0.58" and "≤" not in lines[4]
     assert check_prior(blocks, VOLUME, "", False).notes[-1].endswith("Their H/L is an upper limit, at most 0.38")
+    blocks = forecast(list(np.linspace(0.1, 0.6, 40)))
+    blocks.columns["displacement_m"][::4] = 0.0
+    prior = check_prior(blocks, VOLUME, "", True)
+    assert prior.members == [number for number in range(40) if number % 4] and prior.weights is not None
+    assert prior.weights.sum() == pytest.approx(1.0)
+    assert "10 of 40 blocks do not leave: they have no weight" in prior.notes[-1]
 
 
 def forecast(ratios: list[float], displacement: float = 100.0, moving: int = 0) -> Forecast:
@@ -211,12 +217,3 @@ def test_a_prior_check_needs_members_that_leave_and_events() -> None:
     assert prior.members == list(range(40)) and prior.weights is not None
     assert [row[1] for row in prior.rows()][::2] == [40, len(similar_events(VOLUME, "rock"))]
     assert prior.rows()[1][3] == pytest.approx(prior.rows()[2][3], abs=0.02)
-
-
-def test_members_that_do_not_leave_have_no_weight() -> None:
-    blocks = forecast(list(np.linspace(0.1, 0.6, 40)))
-    blocks.columns["displacement_m"][::4] = 0.0
-    prior = check_prior(blocks, VOLUME, "", True)
-    assert prior.members == [number for number in range(40) if number % 4] and prior.weights is not None
-    assert prior.weights.sum() == pytest.approx(1.0)
-    assert "10 of 40 blocks do not leave: they have no weight" in prior.notes[-1]

@@ -32,52 +32,41 @@ def ensemble(tmp_path: Path) -> tuple[list[Path], dict[str, Numbers]]:
     return folders, stacks
 
 
-def test_maps_match_numpy_exactly(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
+@pytest.mark.parametrize("is_weighted", [False, True])
+def test_maps_match_numpy(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path, is_weighted: bool) -> None:
+    """Unweighted maps match exactly; a member with an integer weight counts as so many."""
     folders, stacks = ensemble
     output = tmp_path / "out"
+    weights = np.random.default_rng(4).integers(0, 5, len(folders)) if is_weighted else np.ones(len(folders), int)
     # Windows of 16 cells: the maps are computed in many parts.
-    write_probability_maps(rasters_in(folders), output, memory=1.0)
-    thickness, speed = (np.nan_to_num(stacks[name]) for name in ("max_thickness", "max_speed"))
-    assert np.array_equal(read(output / "reached.tif"), np.isfinite(stacks["arrival_time"]).mean(axis=0))
-    assert np.array_equal(read(output / "thickness_above_0.5.tif"), (thickness > 0.5).mean(axis=0))
-    assert np.array_equal(read(output / "speed_above_5.tif"), (speed > 5.0).mean(axis=0))
+    write_probability_maps(rasters_in(folders), output, memory=1.0, weights=weights if is_weighted else None)
+    thickness, speed, arrival = (np.repeat(stack, weights, axis=0) for stack in stacks.values())
+    thickness, speed = np.nan_to_num(thickness), np.nan_to_num(speed)
+    for name, reached in (
+        ("reached", np.isfinite(arrival)), ("thickness_above_0.5", thickness > 0.5), ("speed_above_5", speed > 5.0),
+    ):  # fmt: skip
+        found, expected = read(output / f"{name}.tif"), reached.mean(axis=0)
+        assert found == pytest.approx(expected) if is_weighted else np.array_equal(found, expected)
+    times = np.where(np.isnan(arrival), 1e30, arrival)
     for percent in (10, 50, 90):
-        for name, stack in (("thickness", thickness), ("speed", speed)):
+        for name, stack in (("thickness", thickness), ("speed", speed), ("arrival", times)):
             expected = np.quantile(stack, percent / 100.0, axis=0, method="inverted_cdf")
-            assert np.array_equal(read(output / f"{name}_p{percent}.tif"), expected)
-        times = np.where(np.isnan(stacks["arrival_time"]), 1e30, stacks["arrival_time"])
-        expected = np.quantile(times, percent / 100.0, axis=0, method="inverted_cdf")
-        expected[expected == 1e30] = np.nan
-        assert np.array_equal(read(output / f"arrival_p{percent}.tif"), expected, equal_nan=True)
+            expected[expected == 1e30] = np.nan
+            assert np.array_equal(read(output / f"{name}_p{percent}.tif"), expected, equal_nan=True)
 
 
-def test_weighted_maps_match_numpy(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
-    folders, stacks = ensemble
-    weights = np.random.default_rng(4).integers(0, 5, len(folders))
-    output = tmp_path / "out"
-    write_probability_maps(rasters_in(folders), output, memory=1.0, weights=weights)
-    thickness = np.nan_to_num(stacks["max_thickness"])
-    repeated = np.repeat(thickness, weights, axis=0)
-    expected = np.average(np.isfinite(stacks["arrival_time"]), axis=0, weights=weights)
-    assert read(output / "reached.tif") == pytest.approx(expected)
-    assert read(output / "thickness_above_0.5.tif") == pytest.approx((repeated > 0.5).mean(axis=0))
-    for percent in (10, 50, 90):
-        expected = np.quantile(repeated, percent / 100.0, axis=0, method="inverted_cdf")
-        assert np.array_equal(read(output / f"thickness_p{percent}.tif"), expected)
-
-
-def test_maps_have_styles_and_thresholds(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
-    paths = write_probability_maps(rasters_in(ensemble[0]), tmp_path / "out")
+def test_maps_have_styles_and_thresholds_also_of_reached_cells(
+    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
+) -> None:
+    folders, _ = ensemble
+    rasters = rasters_in(folders)
+    paths = write_probability_maps(rasters, tmp_path / "out")
     assert all("colorrampshader" in path.with_suffix(".qml").read_text() for path in paths)
     with rasterio.open(tmp_path / "out" / "speed_p50.tif") as file:
         assert file.units == ("m/s",) and file.descriptions == ("50 % quantile of maximum speed",)
-    names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
+    names = {path.stem for path in write_probability_maps(rasters, tmp_path, {"speed": [7.0]})}
     assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
     assert "speed_above_5" not in names
-
-
-def test_map_of_reached_cells_has_a_threshold(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
-    folders, _ = ensemble
     words = "probability of being reached: thickness above"
 
     def found(rasters: dict[str, list[Path]]) -> tuple[str, str]:
@@ -85,7 +74,6 @@ def test_map_of_reached_cells_has_a_threshold(ensemble: tuple[list[Path], dict[s
         with rasterio.open(tmp_path / "out" / "reached.tif") as file:
             return file.descriptions[0], file.tags()["THRESHOLD"]
 
-    rasters = rasters_in(folders)
     assert found(rasters) == (f"{words} maps.arrival_thickness", "maps.arrival_thickness")
     for folder in folders:
         (folder / "case.toml").write_text("[maps]\narrival_thickness = 0.5\n")

@@ -123,15 +123,11 @@ def test_a_column_weight_weighs_the_members(tmp_path: Path, capfd: Capture) -> N
     assert "weight: not weights (found -1 to 2; allowed:" in failure(tmp_path / "other" / "sweep", JOFFRE, capfd)
 
 
-def test_the_event_itself_and_volumes_without_five_events_have_no_baseline() -> None:
+def test_events_of_a_similar_volume_and_kind_are_the_baseline() -> None:
     assert "Frank 1903" in {each.name for each in similar_events(36e6, "")}
     assert "Frank 1903" not in {each.name for each in similar_events(36e6, "", "frank 1903")}
     assert similar_events(1e12, "") == [] and baseline_values("h_over_l", [], 100.0) is None
     assert baseline_values("duration", similar_events(2e6, ""), 100.0) is None
-
-
-def test_each_offered_kind_has_a_volume_with_enough_events() -> None:
-    """Volumes are tried at the ends of the ranges of similar volume, where their events change."""
     ends = [event.volume * factor for event in published_events() for factor in (1 / VOLUME_FACTOR, VOLUME_FACTOR)]
     compared = {kind for kind in KINDS if any(similar_events(volume, kind) for volume in ends)}
     assert set(comparable_kinds()) == compared == {"rock"}
@@ -179,7 +175,7 @@ def test_overlap_counts_cells_of_members_and_of_the_weighted_probability(tmp_pat
     assert tables[0][1][0][:3] == first
 
 
-def test_thickness_is_that_of_the_cell_around_the_point(tmp_path: Path, capfd: Capture) -> None:
+def test_thickness_is_that_of_the_cell_and_far_places_are_errors(tmp_path: Path, capfd: Capture) -> None:
     thickness = sweep_with_maps(tmp_path / "sweep")
     point = '[[thickness]]\nname = "{}"\nx = {}\ny = {}\nvalue = 0\nunit = "cm"\nof = "{}"\n'
     text = point.format("A", 49.0, 961.0, "maximum") + point.format("B", 49.0, 961.0, "deposit")
@@ -190,6 +186,9 @@ def test_thickness_is_that_of_the_cell_around_the_point(tmp_path: Path, capfd: C
     assert not members["thickness at C"].any()
     error = failure(tmp_path / "sweep", point.format("D", 201.0, 950.0, "deposit"), capfd)
     assert "thickness at D: outside the maps (found x = 201, y = 950; allowed 0 to 200, 900 to 1000). Corr" in error
+    write_box(tmp_path / "outline.geojson", 4e6, 5e6, 920.0, 980e3)
+    error = failure(tmp_path / "sweep", '[outline]\nfile = "outline.geojson"\n', capfd)
+    assert "or far from the maps (found corners from" in error
 
 
 def test_a_forecast_without_the_observed_quantities_is_an_error(tmp_path: Path, capfd: Capture) -> None:
@@ -205,19 +204,9 @@ def test_a_forecast_without_the_observed_quantities_is_an_error(tmp_path: Path, 
     assert "members.parquet: cannot be read (" in failure(tmp_path / "sweep", JOFFRE, capfd)
 
 
-def test_a_far_outline_is_an_error(tmp_path: Path, capfd: Capture) -> None:
-    sweep_with_maps(tmp_path / "sweep")
-    write_box(tmp_path / "outline.geojson", 4e6, 5e6, 920.0, 980e3)
-    error = failure(tmp_path / "sweep", '[outline]\nfile = "outline.geojson"\n', capfd)
-    assert "or far from the maps (found corners from" in error
-
-
 @pytest.mark.parametrize("keep", ["maps", "none"])
 def test_the_page_of_a_sweep_has_its_score_before_the_maps(
-    plane: Path,
-    tmp_path: Path,
-    capfd: Capture,
-    keep: str,
+    plane: Path, tmp_path: Path, capfd: Capture, keep: str
 ) -> None:
     command = [str(plane), "--vary", "basal.friction_angle=5,25", "--output", str(tmp_path / "sweep"), "--keep", keep]
     assert sweep(command) == 0

@@ -8,7 +8,7 @@ import scoringrules
 from scipy.stats import percentileofscore, spearmanr
 
 from thawslide.errors import NotInRunError
-from thawslide.scores.ensemble import compare, crps, percentile, quantiles
+from thawslide.scores.ensemble import crps, percentile, quantiles
 from thawslide.scores.forecast import front_duration
 from thawslide.sweeps.design import Design
 from thawslide.sweeps.sensitivity import MORRIS, RANK, SOBOL_FIRST, SOBOL_TOTAL, effective_number, indices_of
@@ -108,25 +108,6 @@ def test_percentiles_and_quantiles_are_those_of_scipy_and_numpy(size: int) -> No
     for values, mass in ((members, np.ones(size)), (members, weights)):
         expected = np.quantile(values, (0.05, 0.5, 0.95), method="inverted_cdf", weights=mass)
         assert quantiles(values, mass) == pytest.approx(list(expected))
-
-
-def test_the_order_of_members_and_the_unit_of_weights_do_not_matter() -> None:
-    random = np.random.default_rng(1)
-    members, weights = random.normal(size=40), random.random(40)
-    first = compare(members, weights, 0.3, 0.2)
-    for seed in range(5):
-        order = np.random.default_rng(seed).permutation(40)
-        again = compare(members[order], 7.0 * weights[order], 0.3, 0.2)
-        assert [*vars(again).values()] == pytest.approx([*vars(first).values()])
-
-
-def test_percentiles_are_within_0_and_100_and_uncertainty_widens_them() -> None:
-    random = np.random.default_rng(2)
-    for _ in range(200):
-        members, weights = random.normal(size=9), random.random(9)
-        found = compare(members, weights, 2.0 * random.normal(), random.random())
-        assert 0.0 <= found.percentile_low <= found.percentile <= found.percentile_high <= 100.0
-        assert found.low <= found.median <= found.high and found.crps >= 0.0
 
 
 def test_members_without_a_value_or_weight_have_no_quantile() -> None:

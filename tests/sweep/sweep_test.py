@@ -58,9 +58,7 @@ def test_finished_members_are_not_repeated(slope: Path, tmp_path: Path, capfd: C
     assert "contains another sweep (different: design)" in capfd.readouterr().err
 
 
-def test_titles_may_be_long_and_columns_may_not_replace_others(slope: Path, tmp_path: Path) -> None:
-    command = [str(slope), "--block", "--set", f"case.title={'x' * 300}", "--vary", "basal.friction_angle=20,30"]
-    assert main([*command, "--output", str(tmp_path / "sweep")]) == 0
+def test_columns_may_not_replace_others(slope: Path, tmp_path: Path) -> None:
     for name in ("status", "peak_speed_m_s", "probe_dam_speed_m_s", "runs"):
         command = [str(slope), "--block", "--vary", "basal.friction_angle=20,30", "--output", str(tmp_path / name)]
         assert main([*command, "--column", f"{name}=last(velocity_m_s)"]) == (0 if name == "runs" else 2)
@@ -95,10 +93,13 @@ def start_slow(slope: Path, sweep: Path, angles: str, *options: str) -> tuple[Pa
     return case, command, process, checkpoints
 
 
-def test_a_killed_sweep_continues_from_checkpoints(slope: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("kill", [os.killpg, os.kill], ids=["with its workers", "alone"])
+def test_a_killed_sweep_continues_from_checkpoints(
+    slope: Path, tmp_path: Path, kill: Callable[[int, int], None]
+) -> None:
     sweep = tmp_path / "sweep"
     case, command, process, checkpoints = start_slow(slope, sweep, "20,30", "--keep", "all", "--workers", "2")
-    os.killpg(process.pid, signal.SIGKILL)  # with its workers
+    kill(process.pid, signal.SIGKILL)
     process.wait()
     checkpoints[0].with_name("checkpoint.bin").unlink(missing_ok=True)  # as if killed while replacing it
     assert subprocess.run(command, stderr=subprocess.DEVNULL, timeout=900, check=False).returncode == 0
@@ -227,7 +228,7 @@ def speeds(tmp_path: Path) -> list[float]:
     return list(pd.read_parquet(tmp_path / "sweep" / "members.parquet")["peak_speed_m_s"])
 
 
-def test_members_of_a_changed_file_run_again(sweep: Sweep, slope: Path, tmp_path: Path, capfd: Capture) -> None:
+def test_members_of_a_changed_input_run_again(sweep: Sweep, slope: Path, tmp_path: Path, capfd: Capture) -> None:
     before = speeds(tmp_path)
     assert sweep() == []
     (slope.parent / "b.csv").write_text(STEEP)
@@ -237,9 +238,6 @@ def test_members_of_a_changed_file_run_again(sweep: Sweep, slope: Path, tmp_path
     after = speeds(tmp_path)
     assert after[::2] == before[::2] and after[1] == after[0] != before[1] and after[3] == after[2] != before[3]
     assert sweep() == []
-
-
-def test_a_changed_case_file_or_base_runs_again(sweep: Sweep, slope: Path) -> None:
     text = slope.read_text()
     slope.write_text(f"# a comment changes no member\n{text}")
     assert sweep() == []
