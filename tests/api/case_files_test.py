@@ -41,21 +41,16 @@ def test_a_change_in_another_folder_touches_the_named_key_only(inside: Path, mon
     assert simulation.case.to_toml() == case.to_toml()
 
 
-def test_an_edited_or_removed_case_file_does_not_affect_its_case(inside: Path) -> None:
+def test_an_edited_or_removed_file_does_not_affect_its_case(inside: Path) -> None:
     file = Path("case.toml")
-    edited, removed = Case(file), Case(file)
+    Path("steep.toml").write_text('[case]\nbased_on = "case.toml"\n[basal]\nfriction_angle = 10.0\n')
+    edited, removed, based = Case(file), Case(file), Case("steep.toml")
     file.write_text((inside / "case.toml").read_text())
-    assert_only_friction_changes(edited)
+    for case in (edited, based):
+        assert_only_friction_changes(case)
+        assert case["body.block.porosity"] == 0.3
     file.unlink()
     assert_only_friction_changes(removed)
-
-
-def test_an_edited_base_does_not_affect_its_case(inside: Path) -> None:
-    Path("steep.toml").write_text('[case]\nbased_on = "case.toml"\n[basal]\nfriction_angle = 10.0\n')
-    case = Case("steep.toml")
-    Path("case.toml").write_text((inside / "case.toml").read_text())
-    assert_only_friction_changes(case)
-    assert case["body.block.porosity"] == 0.3
 
 
 def test_relative_paths_of_changes_remain_those_of_their_folder(inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -48,9 +48,11 @@ def interrupts() -> Iterator[None]:
 def command_line(tmp_path: Path) -> CommandLine:
     program = os.environ.get("THAWSLIDE_BINARY", str(ROOT / "build" / "release" / "thawslide"))
 
-    def start(*arguments: object) -> subprocess.CompletedProcess[str]:
+    def start(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
         command = [program, *map(str, arguments)]
-        return subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=600)
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=600)
+        assert done.returncode == code, done.stderr
+        return done
 
     return start
 
