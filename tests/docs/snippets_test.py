@@ -4,38 +4,7 @@ import time
 from pathlib import Path
 
 import pytest
-from snippets import Block, Scratch, blocks_of, commands_of, difference, fault_of, missing_line, page_failures
-
-PAGE = """# Title
-
-1. Run it:
-
-    <!-- long: a minute -->
-    <!-- exit code: 2 -->
-    ```console
-    $ thawslide run \\
-      nothing
-    error
-
-      indented
-    $ true
-    ```
-
-```
-a = b
-```
-"""
-
-
-def test_blocks_have_marks_and_commands_their_output() -> None:
-    console, plain = blocks_of(PAGE)
-    assert (console.line, console.language) == (7, "console")
-    assert console.marks == {"long": "a minute", "exit code": "2"}
-    assert plain == Block(16, "", "a = b\n", {})
-    first, second = commands_of(console)
-    assert (first.line, first.text) == (8, "thawslide run \\\n  nothing")
-    assert first.expected == ["error", "", "  indented"]
-    assert (second.line, second.expected) == (13, [])
+from snippets import Block, Scratch, difference, fault_of, missing_line, page_failures
 
 
 @pytest.mark.parametrize(

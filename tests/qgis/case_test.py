@@ -52,13 +52,10 @@ def test_refusal_shows_the_message_of_the_program(algorithm: Algorithm, slope: P
     assert "error: --thickness" in refused.stderr
 
 
-def test_check_shows_facts_and_warnings(algorithm: Algorithm, case: Path) -> None:
+def test_check_shows_facts_and_warnings_and_draws_a_picture(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
     checked = algorithm("checkcase", CASE=case, THREADS=1, SETTINGS="time.end=3")
     for expected in ["the case is valid", "  particles ", "  memory ", "WARNING:\twarning: "]:
         assert expected in checked.stdout
-
-
-def test_check_draws_a_picture(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
     picture = tmp_path / "setup.png"
     algorithm("checkcase", CASE=case, THREADS=1, PICTURE=picture)
     assert picture.read_bytes().startswith(b"\x89PNG")

@@ -18,12 +18,6 @@ def test_zip_file_has_the_same_bytes_and_one_folder_with_metadata(zip_file: Path
     assert {"thawslide_qgis/LICENSE", "thawslide_qgis/metadata.txt", "thawslide_qgis/icon.svg"} <= set(names)
 
 
-def test_version_is_that_of_the_program() -> None:
-    metadata = (ROOT / "qgis" / "thawslide_qgis" / "metadata.txt").read_text()
-    version = re.search(r"^project\(thawslide VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
-    assert version and f"\nversion={version[1]}\n" in metadata
-
-
 def test_provider_lists_its_algorithms(environment: dict[str, str], plugin: None) -> None:
     listed = subprocess.run(
         [QGIS_PROCESS, "list"], env=environment, capture_output=True, text=True, check=True, timeout=LIMIT

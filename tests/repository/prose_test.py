@@ -88,15 +88,12 @@ def test_words_of_a_sentence_are_counted_and_limited() -> None:
     assert lengths_in("word " * 29 + ".", RULES.max_words) == [29]
 
 
-def test_messages_are_strings_of_several_words() -> None:
+def test_messages_and_labels_are_strings_of_several_words() -> None:
     comment = "// the card has one and more\n/* 'a card' of \"two or three\" */\n"
     source = comment + 'f("card", "the run uses "\n  "a card at {}", x); g(R"(one\na card and two more)");\n'
     texts = prose.texts_of_cpp("a.cpp", source, RULES)
     assert [text.chars for text in texts] == [f"the run uses a card at {prose.CODE}", "a card and two more"]
     assert [(hit.line, hit.found) for hit in prose.findings(texts, RULES).hits] == [(4, "card"), (5, "card")]
-
-
-def test_labels_are_strings_that_document_nothing() -> None:
     source = (
         '"""A card."""\n\n\ndef f():\n    """A card."""\n    return f"{x} of a card" + "card" + "one card"  # card\n'
     )

@@ -16,11 +16,13 @@ def version() -> str:
     return found[1]
 
 
-def test_notes_are_the_newest_section_of_the_changelog() -> None:
+def test_notes_are_the_newest_section_of_the_changelog_and_other_parts_are_refused() -> None:
     made = subprocess.run([ROOT / "scripts" / "release", "notes"], capture_output=True, text=True, check=True)
     notes = (ROOT / made.stdout.strip()).read_text()
     sections = re.split(r"^(?=## )", (ROOT / "CHANGELOG.md").read_text(), flags=re.MULTILINE)
     assert notes == sections[1] and notes.startswith(f"## {version()}\n")
+    made = subprocess.run([ROOT / "scripts" / "release", "sources"], capture_output=True, text=True)
+    assert made.returncode == 2 and "scripts/release archive" in made.stderr
 
 
 def test_metadata_for_a_doi_are_those_of_the_citation() -> None:
@@ -30,11 +32,6 @@ def test_metadata_for_a_doi_are_those_of_the_citation() -> None:
     assert metadata["creators"] == [{"name": "The Thawslide authors"}]
     assert metadata["license"] == "bsd-3-clause" and len(metadata["keywords"]) == 3
     assert metadata["description"].startswith("A simulator of rock-ice avalanches")
-
-
-def test_unknown_parts_of_a_release_are_refused() -> None:
-    made = subprocess.run([ROOT / "scripts" / "release", "sources"], capture_output=True, text=True)
-    assert made.returncode == 2 and "scripts/release archive" in made.stderr
 
 
 def test_plugin_with_metadata_of_the_publisher_meets_the_rules_of_the_plugin_repository(tmp_path: Path) -> None:
