@@ -1,6 +1,5 @@
 // A cohesionless block that spreads over level ground at two elevations, and on planes.
 #include "../support/following_plane.hpp"
-#include "../support/mass_spread.hpp"
 #include "../verification/verification.hpp"
 
 namespace thawslide::verification {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <random>
 
+#include "../support/base_cases.hpp"
 #include "../support/messages.hpp"
-#include "../support/slide_in_space.hpp"
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
 #include "sim/records/run_records.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "../support/slide_in_space.hpp"
+#include "../support/base_cases.hpp"
 #include "base/parallel.hpp"
 #include "sim/simulation.hpp"
 #include "terrain/ground_on_grid.hpp"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "../support/base_cases.hpp"
-#include "../support/slide_in_space.hpp"
 #include "sim/direction.hpp"
 #include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "../support/base_cases.hpp"
 #include "../support/column_slab.hpp"
-#include "../support/slide_in_space.hpp"
 #include "../support/two_bodies.hpp"
 #include "sim/block/block.hpp"
 #include "sim/records/base_table.hpp"

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "../support/base_cases.hpp"
 #include "../support/messages.hpp"
-#include "../support/slide_in_space.hpp"
 #include "../support/two_bodies.hpp"
 #include "io/checkpoint.hpp"
 

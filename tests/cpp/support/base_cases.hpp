@@ -63,6 +63,9 @@ inline config::Case published_case(const std::string& name, const Sets& sets = {
   return paper_case(Variant{name, sets});
 }
 
+// Small 3D slide: a box of 6 x 4 x 3 m of warm ice on a plane of 25 degrees that falls towards +x, on a grid of 1 m.
+inline config::Case slide_in_space(const Sets& sets = {}) { return published_case("box", sets); }
+
 // Place of a case in 2D or 3D, as TOML: x along the slope, y across it, z upwards [m].
 template <int Dim>
 std::string place_in(double x, double y, double z) {

@@ -7,7 +7,6 @@
 
 #include "base/portability.hpp"
 #include "base_cases.hpp"
-#include "mass_spread.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::testing_support {
@@ -48,6 +47,19 @@ inline config::Case body_on_plane(const Incline& plane, double cell, const std::
       fmt::format("grid.min=[{},{}]", rounded(least[0] - margin), rounded(least[1] - fall - 40)),
       fmt::format("grid.max=[{},{}]", rounded(greatest[0] + margin), rounded(greatest[1] + fall + 80))};
   return base_case("block", on_plane + sets);
+}
+
+// Standard deviation of the mass along a direction [m].
+inline double mass_spread(const sim::Simulation<2>& simulation, const Vector<double, 2>& direction = {1.0, 0.0}) {
+  const auto& particles = simulation.particles();
+  double mass = 0.0, first = 0.0, second = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double along = particles.position.get<Vector<double, 2>>(p).dot(direction);
+    mass += particles.mass(p);
+    first += particles.mass(p) * along;
+    second += particles.mass(p) * along * along;
+  }
+  return std::sqrt(second / mass - first / mass * first / mass);
 }
 
 // Growth of the volume relative to that at t = 0.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -12,15 +13,13 @@
 
 #include "base_cases.hpp"
 #include "config/site.hpp"
+#include "mpm/front.hpp"
 #include "sim/simulation.hpp"
 #include "small_terrain.hpp"
 
 namespace thawslide::testing_support {
 
 using Height = std::function<double(double x, double y)>;  // [m], at positions in [m]
-
-// The only body of a case of slide_on_dem().
-const std::string release_table = "[body.slide]\nshape = \"release\"\nthickness = { raster = \"thickness.tif\" }\n";
 
 // Time [s], grid and domain [m].
 struct Frame {
@@ -45,8 +44,8 @@ inline Sets elastic_rock(double viscosity_time) {
       viscosity_time);
 }
 
-// Case from a text or a variant, in which the DEM is terrain.file = "dem.tif" and the release is `release_table`. The
-// files exist but are empty: their contents are in the site.
+// Case from a text or a variant, whose files are "dem.tif" and "thickness.tif". They
+// exist but are empty: their contents are in the site.
 template <class Text>
 config::Case case_on_dem(const Text& text, const Sets& sets = {}) {
   const std::filesystem::path folder = folder_of_this_test();
@@ -91,5 +90,22 @@ struct CentreOfMass {
     velocity /= mass;
   }
 };
+
+// Front of particles (mpm/front.hpp) along any measure of distance.
+struct MassOnPath {
+  double along, mass;  // [m, kg]
+};
+
+// Distance behind which 99.5 % of the mass is.
+inline double front_of(std::vector<MassOnPath> masses) {
+  std::sort(masses.begin(), masses.end(), [](const MassOnPath& a, const MassOnPath& b) { return a.along > b.along; });
+  double mass = 0.0;
+  for (const MassOnPath& one : masses) {
+    mass += one.mass;
+  }
+  mpm::FrontSearch search(mass);
+  return std::find_if(masses.begin(), masses.end(), [&](const MassOnPath& one) { return search.is_at(one.mass); })
+      ->along;
+}
 
 }  // namespace thawslide::testing_support

@@ -1,7 +1,6 @@
 // Collapse of cylindrical granular columns on a flat DEM, and in a section.
 #pragma once
 
-#include "../support/front_of.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "verification.hpp"
 
