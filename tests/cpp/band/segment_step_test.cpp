@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "../physics/band_column_model.hpp"
@@ -65,48 +64,6 @@ TEST(SegmentStep, AveragesTheDepthOfTheSlide) {
   }
   EXPECT_NEAR(segment.depth, 5.0 + 15.0 * std::exp(-1.0), 0.01);
   EXPECT_NEAR(segment.load, weight * 5.0, 1e-3 * weight);
-}
-
-// Below a slide deeper than a full column, results equal those with one ratio of cells for all columns.
-TEST(SegmentStep, IsBitwiseIdenticalToThatOfFullColumnsBelowADeepSlide) {
-  ColumnsModel model = make_columns_model();
-  model.growth = BandGrowth::slip;
-  model.growth_per_slip = 1e-3;
-  std::mt19937 random(3);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
-  Segment segment = make_segment(model, 0.1, 40.0);
-  Segment other = segment;
-  for (int step = 0; step < 300; ++step) {
-    const double stretch = between(-0.25, 0.28), before = other.column.thickness, flux = between(0.0, 5e6);
-    for (Segment* each : {&segment, &other}) {
-      each->area *= std::exp(stretch);
-      each->heat += flux * each->area;
-      each->speed = 20.0;
-      each->slip += 20.0 * 0.05;
-      each->depth = 40.0;
-    }
-    step_segment(model, 0.1, 0.05, segment);
-    // The same step with the ratio of the model.
-    const auto& column = column_model(model);
-    const double log_area = std::log(other.area / other.area_of_column);
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(log_area) / 0.1)));
-    const double factor = std::exp(log_area / parts), heat = other.heat / parts, dt = 0.05 / parts;
-    const double after = segment.column.thickness;
-    for (int part = 1; part <= parts; ++part) {
-      other.area_of_column = part == parts ? other.area : other.area_of_column * factor;
-      physics::step_column(
-          column,
-          {dt, other.load, heat / (other.area_of_column * dt), (factor - 1.0) / dt,
-           before + (after - before) * part / parts, column.growth, -physics::exponential_minus_one(-20.0 * dt / 50.0),
-           physics::body_enthalpy(column, -10.0), physics::water_of_full_pores(column, -10.0)},
-          other.column);
-    }
-    other.heat = 0.0;
-    ASSERT_EQ(std::memcmp(&segment.column, &other.column, sizeof segment.column), 0) << step;
-    ASSERT_EQ(segment.column.cell_growth, 1.4);
-  }
-  EXPECT_GT(segment.column.thickness, 0.3);
-  EXPECT_GT(means_of(model, segment).temperature, 0.0);
 }
 
 // A slide of constant volume spreads to a fifth of its depth. The column returns excess ice and water to the body, and

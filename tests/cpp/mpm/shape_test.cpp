@@ -3,10 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <random>
-#include <tuple>
 
 #include "mpm/batch_transfer.hpp"
 
@@ -153,59 +150,6 @@ void expect_linear_shape_reproduces_a_linear_field() {
   }
   EXPECT_EQ(seen, particles.size());
 }
-
-// A batch reads bitwise identical values for any number of runs of lanes. seen: number of batches by that number.
-template <int Dim>
-void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNodes::irregular + 1>& seen) {
-  Particles<Dim> particles;
-  fill<Dim>(particles, count);
-  SparseGrid<Dim> grid(5.0);
-  grid.update(particles, 64);
-  Patch<Dim, 3> patch;
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
-  for (auto& record : patch.records) {
-    std::generate(record.begin(), record.end(), [&] { return number(random); });
-  }
-  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    for (TileBatch<Dim> batch : grid.batches(t)) {
-      const auto place = grid_position(grid, particles, batch);
-      const auto read = [&] {
-        const auto stencil =
-            make_stencil(ShapeFunction::ugimp, grid, batch, place, {Simd<double>(0.25)}, PrescribedSides<Dim>());
-        return std::tuple(read_nodes<3>(linear_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
-                          read_values(stencil, patch));
-      };
-      ++seen[batch.nodes.runs];
-      const auto [linear, nodes, values] = read();
-      batch.nodes.runs = BatchNodes::irregular;
-      const auto [linear_by_lane, nodes_by_lane, values_by_lane] = read();
-      for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          EXPECT_EQ(linear.value[c][lane], linear_by_lane.value[c][lane]);
-          EXPECT_EQ(nodes.value[c][lane], nodes_by_lane.value[c][lane]);
-          EXPECT_EQ(values[c][lane], values_by_lane[c][lane]);
-          for (std::size_t a = 0; a < Dim; ++a) {
-            EXPECT_EQ(linear.gradient[a][c][lane], linear_by_lane.gradient[a][c][lane]);
-            EXPECT_EQ(nodes.gradient[a][c][lane], nodes_by_lane.gradient[a][c][lane]);
-          }
-        }
-      }
-    }
-  }
-}
-
-// Few particles per node make many runs, many particles few, with four lanes and with eight.
-template <int Dim>
-void expect_the_same_readings_by_any_runs(std::size_t few, std::size_t many) {
-  std::array<int, BatchNodes::irregular + 1> seen{};
-  expect_the_same_readings_by_runs<Dim>(few, seen);
-  expect_the_same_readings_by_runs<Dim>(many, seen);
-  EXPECT_GT(*std::min_element(seen.begin() + 1, seen.end()), 0) << "one, two and many runs should all occur";
-}
-
-TEST(Transfer, ReadsTheSameForAnyRunsInThePlane) { expect_the_same_readings_by_any_runs<2>(400, 5000); }
-TEST(Transfer, ReadsTheSameForAnyRunsInSpace) { expect_the_same_readings_by_any_runs<3>(3000, 60000); }
 
 TEST(LinearShape, ReproducesALinearFieldInThePlane) { expect_linear_shape_reproduces_a_linear_field<2>(); }
 TEST(LinearShape, ReproducesALinearFieldInSpace) { expect_linear_shape_reproduces_a_linear_field<3>(); }

@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <array>
 #include <random>
 
 #include "../support/record.hpp"
-#include "base/simd.hpp"
 #include "physics/tension_gap.hpp"
+#include "stress_return.hpp"
 
 namespace thawslide::physics {
 namespace {
@@ -51,66 +50,6 @@ Tensor random_stress(std::mt19937& random, bool plane) {
 
 double size(const Tensor& stress) { return stress.cwiseAbs().maxCoeff(); }
 
-// Batches of four (the number of lanes) give the same result as single stresses, also with faces, edges, apex and
-// cut-off in one batch.
-template <class Law>
-void expect_lanes_return_as_single_numbers_do(double softening_strain, double angle_lost) {
-  using Wide = Simd<double>;
-  // In 2D every second time.
-  const auto updated = [](const Law& law, int k, const auto& stress, const auto& strain) {
-    return k % 2 == 0 ? law.template update<2>(stress, strain) : law.template update<3>(stress, strain);
-  };
-  std::mt19937 random(4);
-  for (const Set& set : sets) {
-    const double residual_angle = std::max(set.dilation, set.friction - angle_lost);
-    const auto law = Law::make(elastic, {set.friction, set.dilation, set.cohesion, 0.5 * set.cohesion, set.cutoff,
-                                         softening_strain, residual_angle});
-    int yielded = 0;
-    for (int k = 0; k < 500; ++k) {
-      std::array<Tensor, Wide::count> one;
-      for (Tensor& stress : one) {
-        stress = (k % 3 == 0 ? 0.1 : 1.0) * random_stress(random, k % 2 == 0);
-      }
-      SymmetricTensor<Wide> trial;
-      for (int c = 0; c < 6; ++c) {
-        trial[c] = Wide::of([&](std::size_t lane) { return one[lane][c]; });
-      }
-      const Wide strain = Wide::of([&](std::size_t lane) { return 0.1 * static_cast<double>(lane * (k % 5)); });
-      const auto together = updated(law, k, trial, strain);
-      for (std::size_t lane = 0; lane < Wide::count; ++lane) {
-        const auto alone = updated(law, k, one[lane], strain[lane]);
-        EXPECT_EQ(together.yielded[lane], alone.yielded);
-        yielded += alone.yielded ? 1 : 0;
-        for (int c = 0; c < 6; ++c) {
-          EXPECT_NEAR(together.stress[c][lane], alone.stress[c], 1e-12 * size(one[lane]));
-        }
-        EXPECT_NEAR(together.equivalent_plastic_strain_increment[lane], alone.equivalent_plastic_strain_increment,
-                    1e-12);
-        EXPECT_NEAR(together.opening[lane], alone.opening, 1e-12);
-        // The result is bitwise independent of the other members of the batch.
-        SymmetricTensor<Wide> by_itself;
-        for (int c = 0; c < 6; ++c) {
-          by_itself[c] = one[lane][c];
-        }
-        const auto copies = updated(law, k, by_itself, Wide(strain[lane]));
-        for (int c = 0; c < 6; ++c) {
-          EXPECT_EQ(together.stress[c][lane], copies.stress[c][0]);
-        }
-        EXPECT_TRUE(!alone.yielded || (k % 2 == 0 ? law.template may_yield<2>(one[lane], strain[lane])
-                                                  : law.template may_yield<3>(one[lane], strain[lane])));
-      }
-    }
-    EXPECT_GT(yielded, 200);
-  }
-}
-TEST(MohrCoulomb, LanesAgreeWithScalars) {
-  expect_lanes_return_as_single_numbers_do<MohrCoulomb<>>(1.0, 0.0);
-  expect_lanes_return_as_single_numbers_do<MohrCoulomb<>>(0.1, 0.0);
-}
-TEST(MohrCoulomb, LanesAgreeWithScalarsIfFrictionSoftens) {
-  expect_lanes_return_as_single_numbers_do<MohrCoulomb<true>>(0.1, 15.0);
-}
-
 // Returns the principal state.
 auto expect_rebuilt(const Tensor& stress, double allowed) {
   const auto state = principal(stress);
@@ -149,28 +88,42 @@ TEST(Principal, RebuildsTensorsThatAreIsotropicToRoundOff) {
   }
 }
 
+// Plane stresses in 2D; faces, edges, apex and cut-off in one batch of the CPU.
+template <int Dim>
+void expect_admissible_returns(const Set& set, Executor executor) {
+  const auto law = law_of(set);
+  std::mt19937 random(5);
+  std::vector<Tensor> trials(10000);
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    trials[k] = (k % 3 == 0 ? 0.1 : 1.0) * random_stress(random, Dim == 2);
+  }
+  const auto results = returned_by<Dim>(executor, law, trials);
+  int yielded = 0;
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    const Tensor& trial = trials[k];
+    const auto& result = results[k];
+    const double scale = size(trial) + set.cohesion;
+    if (!result.yielded) {
+      EXPECT_EQ(result.stress, trial);
+      EXPECT_LE(excess(set, trial), 1e-9 * scale);
+      continue;
+    }
+    ++yielded;
+    EXPECT_GT(excess(set, trial), 0.0);
+    EXPECT_TRUE(law.template may_yield<Dim>(trial, 0.0));
+    EXPECT_NEAR(excess(set, result.stress), 0.0, 1e-9 * scale) << "friction " << set.friction << " k " << k;
+    EXPECT_GE(result.plastic_work_density, -1e-9 * scale * scale / 5e8);
+    const auto again = law.update(result.stress, 0.0);
+    EXPECT_LT((again.stress - result.stress).cwiseAbs().maxCoeff(), 1e-8 * scale);
+  }
+  EXPECT_GT(yielded, 500);
+}
 TEST(MohrCoulomb, ReturnsAreAdmissibleOnTheSurfaceAndIdempotent) {
   for (const Set& set : sets) {
-    const auto law = law_of(set);
-    std::mt19937 random(5);
-    int yielded = 0;
-    for (int k = 0; k < 20000; ++k) {
-      const Tensor trial = random_stress(random, k % 2 == 0);
-      const double scale = size(trial) + set.cohesion;
-      const auto result = law.update(trial, 0.0);
-      if (!result.yielded) {
-        EXPECT_EQ(result.stress, trial);
-        EXPECT_LE(excess(set, trial), 1e-9 * scale);
-        continue;
-      }
-      ++yielded;
-      EXPECT_GT(excess(set, trial), 0.0);
-      EXPECT_NEAR(excess(set, result.stress), 0.0, 1e-9 * scale) << "friction " << set.friction << " k " << k;
-      EXPECT_GE(result.plastic_work_density, -1e-9 * scale * scale / 5e8);
-      const auto again = law.update(result.stress, 0.0);
-      EXPECT_LT((again.stress - result.stress).cwiseAbs().maxCoeff(), 1e-8 * scale);
+    for (const Executor executor : {Executor::device, Executor::cpu}) {
+      expect_admissible_returns<2>(set, executor);
+      expect_admissible_returns<3>(set, executor);
     }
-    EXPECT_GT(yielded, 1000);
   }
 }
 
@@ -254,12 +207,17 @@ TEST(MohrCoulomb, ReturnSolvesTheConstrainedProgramme) {
   for (const Set& set : sets) {
     const auto law = law_of(set);
     std::mt19937 random(17);
+    std::vector<Tensor> trials(300);
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      trials[k] = random_stress(random, k % 2 == 0);
+    }
+    const auto on_device = returned_by<3>(Executor::device, law, trials),
+               on_cpu = returned_by<3>(Executor::cpu, law, trials);
     double largest = 0.0;
     int yielded = 0;
-    for (int k = 0; k < 300; ++k) {
-      const Tensor trial = random_stress(random, k % 2 == 0);
-      const auto values = principal(trial).values;
-      const auto result = law.update(trial, 0.0);
+    for (std::size_t k = 0; k < 2 * trials.size(); ++k) {
+      const auto values = principal(trials[k / 2]).values;
+      const auto& result = (k % 2 == 0 ? on_device : on_cpu)[k / 2];
       if (!result.yielded) {
         continue;
       }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../support/record.hpp"
-#include "physics/mohr_coulomb.hpp"
+#include "stress_return.hpp"
 
 namespace thawslide::physics {
 namespace {
@@ -42,7 +42,7 @@ struct Sheared {
 // dilation the mean of its in-plane stresses is constant, and the radius of Mohr's circle is therefore c cos(phi) + p
 // sin(phi).
 template <class Law>
-Sheared shear(const Strength& strength, double step, int steps) {
+Sheared shear(const Strength& strength, double step, int steps, Executor executor = Executor::device) {
   const auto law = Law::make(elastic, strength);
   Tensor stress;
   stress << -pressure, -pressure, -pressure, 0, 0, 0;
@@ -52,7 +52,8 @@ Sheared shear(const Strength& strength, double step, int steps) {
     strain[0] = 0.6 * step;  // strain axes oblique to those of the element, to test the principal axes
     strain[1] = -0.6 * step;
     strain[3] = 0.8 * step;
-    const auto now = law.template update<2>(Tensor(stress + stress_increment(elastic, strain)), result.plastic_strain);
+    const auto now =
+        returned_by<2>(executor, law, {Tensor(stress + stress_increment(elastic, strain))}, result.plastic_strain)[0];
     stress = now.stress;
     const double radius = std::hypot(0.5 * (stress[0] - stress[1]), stress[3]);
     if (now.yielded) {
@@ -76,7 +77,8 @@ TEST(Softening, AShearedElementHasTheStrengthOfItsPlasticStrain) {
                               "(s1 - s3)/2 = c cos phi + p sin phi, c and sin phi by exp(-eps/eps_c)",
                               "Eq. 11 and the softening law");
   const auto expect = [&]<class Law>(const Strength& strength, Law /*law*/, double last_radius) {
-    const Sheared sheared = shear<Law>(strength, 1e-5, 20000);
+    const Sheared sheared = shear<Law>(strength, 1e-5, 20000),
+                  on_cpu = shear<Law>(strength, 1e-5, 20000, Executor::cpu);
     EXPECT_GT(sheared.plastic_strain, 10.0 * std::min(strength.softening_strain, 0.02));
     EXPECT_GT(sheared.first_radius, 1.1 * sheared.last_radius);
     if (strength.softening_strain < 0.1) {
@@ -86,7 +88,7 @@ TEST(Softening, AShearedElementHasTheStrengthOfItsPlasticStrain) {
         fmt::format("largest difference over the strength; eps_c {}, c {} to {} MPa, phi {} to {} degrees",
                     strength.softening_strain, strength.cohesion / 1e6, strength.residual_cohesion / 1e6,
                     strength.friction_angle, strength.residual_friction_angle),
-        sheared.largest_difference, 0.0, 1e-10);
+        std::max(sheared.largest_difference, on_cpu.largest_difference), 0.0, 1e-10);
   };
   const double broken = pressure * sine_of(25.0);
   for (const double strain : {0.005, 0.02, 1.0}) {

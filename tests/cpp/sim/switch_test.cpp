@@ -65,17 +65,6 @@ TEST(Switch, BandScalingOfAllParticlesOrOfTheFirstLayer) {
   }
 }
 
-// A block slides down 30 degrees with a friction angle of 15 degrees: a = g (sin - mu cos).
-TEST(Switch, QuadraticShapeFunctionsSlide) {
-  Simulation<2> simulation(paper_case(Variant{"block", "time.end=2; case.gravity_tilt=30; mechanics.slope_shear=true"},
-                                      "basal.friction_angle=15; mechanics.shape_function=quadratic"));
-  run_until(simulation, 1.0);
-  const double before = value_of(history_row(simulation), "mean_velocity_m_s");
-  run_until(simulation, 2.0);
-  const double angle = pi / 6.0, exact = 9.81 * (std::sin(angle) - std::tan(pi / 12.0) * std::cos(angle));
-  EXPECT_NEAR(value_of(history_row(simulation), "mean_velocity_m_s") - before, exact, 0.02 * exact);
-}
-
 // Traction along the base over its length, with a pore pressure far above the overburden.
 double traction_under_pressure(const Sets& more) {
   const Sets sets =
