@@ -25,7 +25,6 @@
 #include "config/case_proposal.hpp"
 #include "config/read_case.hpp"
 #include "config/resolution.hpp"
-#include "config/sweep_proposal.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"

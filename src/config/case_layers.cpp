@@ -295,8 +295,8 @@ LayeredCase merged(const std::vector<CaseFile>& files) {
 
 Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const Override override{composed(trimmed(text.substr(0, equals))),
-                          equals == std::string::npos ? "" : composed(trimmed(text.substr(equals + 1)))};
+  const Override override{trimmed(text.substr(0, equals)),
+                          equals == std::string::npos ? "" : trimmed(text.substr(equals + 1))};
   const std::vector<std::string> parts = split_at_dots(override.key);
   const bool has_key = std::none_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); });
   if (equals == std::string::npos || !has_key) {

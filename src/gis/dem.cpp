@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"

@@ -47,7 +47,9 @@ void write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReferenc
           const auto geometry = to_geometry(features[k]);
           feature.SetGeometry(&geometry);
           set_attributes(feature, layer, k);
-          written->CreateFeature(&feature);
+          if (written->CreateFeature(&feature) != OGRERR_NONE) {
+            return;  // the error is among the messages
+          }
         }
       },
       layer.features);
@@ -78,7 +80,9 @@ void write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
     row.SetField("styleName", layer.name.c_str());
     row.SetField("styleQML", layer.style.c_str());
     row.SetField("useAsDefault", 1);
-    table->CreateFeature(&row);
+    if (table->CreateFeature(&row) != OGRERR_NONE) {
+      return;
+    }
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/raster.hpp"
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/rounding.hpp"
-#include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/release.hpp"

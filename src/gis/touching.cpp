@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
-#include "base/nearest_known.hpp"
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
+#include "base/raster.hpp"
 #include "base/rounding.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release.hpp"

@@ -1,6 +1,5 @@
 // Resampled points, tapers and values between points. The Gaussian filter: planes, means, edges and holes, and the
 // wedge effect of valleys.
-#include "gis/filters.hpp"
 
 #include <cmath>
 #include <functional>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/sampling.hpp"
 #include "site_case.hpp"
 

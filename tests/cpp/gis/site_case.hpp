@@ -2,7 +2,7 @@
 // on it. Constructed without a case file.
 #pragma once
 
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/release.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"

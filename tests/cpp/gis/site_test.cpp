@@ -2,7 +2,7 @@
 // not declare it.
 #include "gis/site.hpp"
 
-#include "gis/dem_warnings.hpp"
+#include "gis/dem.hpp"
 #include "site_case.hpp"
 
 namespace thawslide::gis {

@@ -1,5 +1,5 @@
 // Units of rasters: known ones are converted, unknown ones are refused.
-#include "base/raster_sampling.hpp"
+#include "base/raster.hpp"
 #include "gis/raster_file.hpp"
 #include "site_case.hpp"
 
