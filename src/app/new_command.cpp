@@ -151,33 +151,25 @@ void copy_polygons(const fs::path& folder, const config::Case& trial) {
   }
 }
 
-// New folder that is removed again if its case is invalid.
-class NewFolder {
- public:
-  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
-  ~NewFolder() {
+// Calls work() in a new folder, which is removed again if it throws. A folder that existed was empty; it may be a link
+// to another folder, so only its contents are removed.
+template <class Work>
+void in_new_folder(const fs::path& folder, const Work& work) {
+  const bool was_there = fs::exists(folder);
+  make_new_folder(folder);
+  try {
+    work();
+  } catch (...) {
     std::error_code ignored;
-    if (keeps_) {
-      return;
-    }
-    // A folder that existed was empty. It may be a link to another folder, so only its contents are removed.
-    for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+    for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
       fs::remove_all(entry->path(), ignored);
     }
-    if (!was_there_) {
-      fs::remove(path_, ignored);
+    if (!was_there) {
+      fs::remove(folder, ignored);
     }
+    throw;
   }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-  void keep() { keeps_ = true; }
-
- private:
-  fs::path path_;
-  bool was_there_, keeps_ = false;
-};
+}
 
 // Removes file locations such as "case.toml:28:15: " from a message, because the file is not kept.
 std::string without_places(std::string message, const std::string& file) {
@@ -281,20 +273,21 @@ int make_new_case(const NewOptions& options) {
     quick = config::propose(ground, thickness, options.reach_angle);
   }
 
-  NewFolder new_folder(options.folder);
-  const fs::path& folder = new_folder.path();
-  write_cropped_dem(folder / input.dem_file, site, proposal, quick);
-  copy_polygons(folder, trial);
-  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
-  input.base = base_by_block(folder);
-  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
-  config::ProposedBase base = input.base.value_or(config::ProposedBase());
-  if (!input.base) {
-    base.friction = std::atan(config::slope_below(ground, thickness)) * 180.0 / std::numbers::pi;
-  }
-  write_file_atomically(folder / "sweep.toml", config::sweep_text(proposal.thickness, base, quick, input.outlines));
-  const std::optional<run::RunCost> cost = cost_of_run(folder);
-  new_folder.keep();
+  const fs::path folder = options.folder;
+  std::optional<run::RunCost> cost;
+  in_new_folder(folder, [&] {
+    write_cropped_dem(folder / input.dem_file, site, proposal, quick);
+    copy_polygons(folder, trial);
+    write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+    input.base = base_by_block(folder);
+    write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+    config::ProposedBase base = input.base.value_or(config::ProposedBase());
+    if (!input.base) {
+      base.friction = std::atan(config::slope_below(ground, thickness)) * 180.0 / std::numbers::pi;
+    }
+    write_file_atomically(folder / "sweep.toml", config::sweep_text(proposal.thickness, base, quick, input.outlines));
+    cost = cost_of_run(folder);
+  });
 
   fmt::print("{}: a release of {} m3, {} m thick, on {} m cells\n", (folder / "case.toml").string(),
              rounded_text(proposal.volume, 3), rounded_text(proposal.thickness, 3), proposal.cell);
