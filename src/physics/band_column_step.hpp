@@ -1,5 +1,5 @@
-// Advection between the cells of a column (band_column.hpp), and exchange with the body, as cell faces move; time step of
-// a column, and its initial state (docs/theory/band-columns.md).
+// Advection between the cells of a column (band_column.hpp), and exchange with the body, as cell faces move; time step
+// of a column, and its initial state (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>
