@@ -9,7 +9,7 @@
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "run/input_files.hpp"
-#include "sim/records/base_table.hpp"
+#include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"
 
 namespace thawslide::run {

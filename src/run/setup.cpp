@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "config/notices.hpp"
-#include "sim/checks/bodies_apart.hpp"
 #include "sim/checks/body_warnings.hpp"
 #include "sim/checks/unresolved_terrain.hpp"
 #include "sim/maps/map_grid.hpp"

@@ -14,7 +14,7 @@
 #include "sim/between_steps/run_failure.hpp"
 #include "sim/between_steps/splitting.hpp"
 #include "sim/moved_mass.hpp"
-#include "sim/setup/release_stages.hpp"
+#include "sim/setup/release_body.hpp"
 #include "sim/solver/base.hpp"
 #include "sim/solver/budget.hpp"
 #include "sim/solver/cpu_solver.hpp"

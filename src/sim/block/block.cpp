@@ -12,9 +12,9 @@
 #include "sim/block/block_column.hpp"
 #include "sim/direction.hpp"
 #include "sim/setup/bodies.hpp"
-#include "sim/setup/columns_model.hpp"
 #include "sim/setup/initial_state.hpp"
-#include "sim/setup/release_stages.hpp"
+#include "sim/setup/model.hpp"
+#include "sim/setup/release_body.hpp"
 #include "sim/solver/time_step.hpp"
 
 namespace thawslide::sim {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "band/model.hpp"
+#include "band/segment_step.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
 #include "mpm/between_bodies.hpp"
@@ -50,5 +51,15 @@ mpm::SparseGrid<Dim> make_grid(const config::Case& parameters, const Model<Dim>&
 // site: contents of the map files of the case; required if the terrain is a DEM.
 template <int Dim>
 Model<Dim> make_model(const config::Case& parameters, const config::Site& site = {});
+
+// Material of the columns at the body's base: temperature [C], porosity, hydraulic conductivity [m/s], and maximum flow
+// depth [m].
+struct ColumnMaterial {
+  double temperature, porosity, hydraulic_conductivity, depth;
+};
+
+template <int Dim>
+band::ColumnsModel make_columns_model(const config::Case& parameters, const Model<Dim>& model,
+                                      const ColumnMaterial& material);
 
 }  // namespace thawslide::sim

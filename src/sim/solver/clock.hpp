@@ -1,6 +1,7 @@
 // Time of a run.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "config/case.hpp"
@@ -32,5 +33,13 @@ struct Clock {
     time = fixed.from_time + static_cast<double>(step_number - fixed.from_number) * dt;
   }
 };
+
+// True if the step of dt from `time` [s] reaches or passes a multiple of mechanics.fmpm_interval, at which velocities
+// are filtered (mpm/velocity_filter.hpp). Round-off of the time has no effect.
+[[nodiscard]] inline bool filters_in_step(const config::Case& parameters, double time, double dt) {
+  const double interval = parameters.mechanics.fmpm_interval;
+  const auto intervals = [&](double until) { return std::floor(until / interval * (1.0 + 1e-12)); };
+  return intervals(time + dt) > intervals(time);
+}
 
 }  // namespace thawslide::sim

@@ -10,7 +10,7 @@
 #include "mpm/step_sequence.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
-#include "sim/solver/filter_times.hpp"
+#include "sim/solver/clock.hpp"
 #include "sim/solver/time_step.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"

@@ -3,7 +3,7 @@
 #include "base/instances.hpp"
 #include "sim/setup/release_stages.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
-#include "sim/solver/filter_times.hpp"
+#include "sim/solver/clock.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {

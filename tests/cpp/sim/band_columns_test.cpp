@@ -14,7 +14,7 @@
 #include "base/error.hpp"
 #include "sim/block/block.hpp"
 #include "sim/block/block_column.hpp"
-#include "sim/records/base_table.hpp"
+#include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 

@@ -8,7 +8,7 @@
 #include "../support/body_motion.hpp"
 #include "../support/fields.hpp"
 #include "../support/messages.hpp"
-#include "sim/checks/bodies_apart.hpp"
+#include "sim/checks/body_warnings.hpp"
 #include "sim/records/history.hpp"
 #include "sim/simulation.hpp"
 

@@ -11,7 +11,7 @@
 #include "../support/column_slab.hpp"
 #include "../support/two_bodies.hpp"
 #include "sim/block/block.hpp"
-#include "sim/records/base_table.hpp"
+#include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"
 #include "sim/records/run_records.hpp"
 

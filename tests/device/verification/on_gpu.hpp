@@ -3,7 +3,7 @@
 
 #include "device/gpu.hpp"
 #include "sim/checks/body_figures.hpp"
-#include "sim/records/base_table.hpp"
+#include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"
 #include "sim/records/run_records.hpp"
 #include "sim/simulation.hpp"
