@@ -9,7 +9,7 @@
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
 #include "sim/setup/domain_bottom.hpp"
-#include "sim/setup/release_stages.hpp"
+#include "sim/setup/release_body.hpp"
 #include "sim/setup/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"

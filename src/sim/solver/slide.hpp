@@ -9,7 +9,7 @@
 #include "mpm/particles.hpp"
 #include "mpm/sparse_grid.hpp"
 #include "sim/setup/model.hpp"
-#include "sim/setup/release_stages.hpp"
+#include "sim/setup/release_body.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {

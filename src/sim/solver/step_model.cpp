@@ -1,7 +1,7 @@
 #include "sim/solver/step_model.hpp"
 
 #include "base/instances.hpp"
-#include "sim/setup/release_stages.hpp"
+#include "sim/setup/release_body.hpp"
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/clock.hpp"
 #include "terrain/ground_on_grid.hpp"
