@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 
+#include "gis/release.hpp"
 #include "gis/roughness.hpp"
 #include "gis/sampling.hpp"
 #include "map_files.hpp"
