@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/raster.hpp"
-#include "base/raster.hpp"
 #include "base/rounding.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release.hpp"

@@ -9,7 +9,16 @@ from pathlib import Path
 import pytest
 import rasterio
 from conftest import (
-    Interrupted, Program, Ran, Slope, assert_identical, columns_of, history, release_volume, run_facts, sets,
+    Interrupted,
+    Program,
+    Ran,
+    Slope,
+    assert_identical,
+    columns_of,
+    history,
+    release_volume,
+    run_facts,
+    sets,
 )  # fmt: skip
 from terrain_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
 

@@ -32,9 +32,6 @@ def test_plain_lines_have_a_title_and_the_progress(run_output: tuple[list[str], 
     particles = run_facts(run)["particles"]
     title = "Lamplugh rock-ice avalanche, 2016, reproduction of the paper"
     assert lines[0] == f"{title}: {particles:,} particles, 2 s to simulate, on 1 thread"
-
-
-def test_plain_lines_report_percentage_speed_remaining_time_and_front(run_output: tuple[list[str], Path]) -> None:
     percentages = []
     for line in lines[1:]:
         if "%" in line and "left" in line:

@@ -109,8 +109,7 @@ TEST(RasterFileTest, WindowIsPartOfTheWhole) {
 
 TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
   // Integers first: a reader that infers the type from the beginning of the file would lose the fractions.
-  std::string text =
-      "ncols 3\nnrows 2\nxllcorner 400000.5\nyllcorner 300000.25\ncellsize 4.9977\nNODATA_value -9999\n";
+  std::string text = "ncols 3\nnrows 2\nxllcorner 400000.5\nyllcorner 300000.25\ncellsize 4.9977\nNODATA_value -9999\n";
   text += "1234 1235 -9999\n1300 2345.6789012 1302\n";
   const Raster read = read_raster(text_file("dem.asc", text));
   EXPECT_EQ(read.cell_x, 4.9977);

@@ -144,10 +144,10 @@ Variant sliding(bool is_mirrored, bool by_tilt, double velocity) {
           "time.end=2; time.step=0.002; time.history_interval=0.5; grid.min=[0,0]; material.rock.youngs_modulus=1e8; "
           "body.block.shape=polygon; basal.friction_angle=10; mechanisms.pressurization=true; " +
               fmt::format("case.gravity_tilt={}; grid.max=[{}, 400.0]; terrain.type={}; "
-                          "terrain.elevation={:.17g}; terrain.slope={}; body.block.vertices=[{}]; "
-                          "body.block.velocity=[{}, 0.0]",
-                          by_tilt ? 30.0 * sign : 0.0, length, by_tilt ? "flat" : "plane", at_zero,
-                          by_tilt ? 0.0 : 30.0 * sign, vertices, sign * velocity)};
+                          "terrain.elevation={:.17g}; body.block.vertices=[{}]; body.block.velocity=[{}, 0.0]",
+                          by_tilt ? 30.0 * sign : 0.0, length,
+                          by_tilt ? "flat" : fmt::format("plane; terrain.slope={}", 30.0 * sign), at_zero, vertices,
+                          sign * velocity)};
 }
 
 struct Rows {
