@@ -40,7 +40,6 @@ def test_large_numbers_of_steps_are_printed_briefly(thawslide: Program, small_ca
     words = sets(time__end=1e300, time__output_interval=1e299, time__history_interval=1e299)
     message = thawslide.ok("check", small_case, *words)
     assert "  steps       1e+303\n" in message and " years of processor time" in message
-    assert "time.step is 0.001 s: that is 1e+303 steps" in message
     assert max(map(len, message.splitlines())) < 400
 
 

@@ -192,12 +192,6 @@ def test_a_domain_smaller_than_its_dem_is_to_be_widened(thawslide: Program, slop
     assert float(reported[4]) < float(reported[5]) == pytest.approx(end - float(reported[1]), abs=5.0)
 
 
-def test_a_thickness_in_place_of_the_dem_is_named(slope: Slope) -> None:
-    words = "is it a raster of the thickness, swapped with the DEM?"
-    assert words in slope.ok(dem=raster(slope, THICKNESS), thickness=3)
-    assert words not in slope.ok(folder=slope.folder / "plain")
-
-
 def test_swapped_files_of_a_case_are_named(thawslide: Program, slope: Slope) -> None:
     polygons, thick = slope.release(), raster(slope, THICKNESS)
     slope.ok()
