@@ -1,28 +1,37 @@
 #include "config/grounds.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <variant>
 
 #include "base/error.hpp"
 
 namespace thawslide::config {
 
-namespace {
+using physics::basal::FrictionLaw, physics::basal::CohesionLaw;
 
-// Law of a keyword, with its parameters.
 template <class Laws>
-Laws law_named(const std::string& keyword, const LawNumbers& numbers) {
+Laws law_of(const GroundStrength& ground) {
+  std::string keyword = ground.friction;
+  if constexpr (std::is_same_v<Laws, CohesionLaw>) {
+    const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
+    keyword = has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::keyword;
+  }
   Laws found{};
   bool is_known = false;
   physics::basal::for_each_law<Laws>([&]<class Law>(physics::basal::OfType<Law>) {
     if (keyword == Law::keyword) {
-      found = Law::from(numbers);
+      found = Law::from(ground.numbers);
       is_known = true;
     }
   });
   THAWSLIDE_ASSERT(is_known, "no law of the base is called {}", keyword);
   return found;
 }
+template FrictionLaw law_of<FrictionLaw>(const GroundStrength&);
+template CohesionLaw law_of<CohesionLaw>(const GroundStrength&);
+
+namespace {
 
 // Time at which ground loses its cohesion [s]; 0 if it does so by slip, or does not.
 double cohesion_loss_time(const GroundStrength& ground) {
@@ -34,20 +43,10 @@ double cohesion_loss_time(const GroundStrength& ground) {
           return 0.0;
         }
       },
-      cohesion_of(ground));
+      law_of<CohesionLaw>(ground));
 }
 
 }  // namespace
-
-physics::basal::FrictionLaw friction_of(const GroundStrength& ground) {
-  return law_named<physics::basal::FrictionLaw>(ground.friction, ground.numbers);
-}
-
-physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground) {
-  const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
-  return law_named<physics::basal::CohesionLaw>(
-      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::keyword, ground.numbers);
-}
 
 double last_scheduled_event(const Case& parameters) {
   double last = cohesion_loss_time(parameters.basal);

@@ -9,10 +9,10 @@
 
 namespace thawslide::config {
 
-// Friction and cohesion laws of one kind of ground. If the initial cohesion is zero, the parameters of its loss are not
-// needed.
-[[nodiscard]] physics::basal::FrictionLaw friction_of(const GroundStrength& ground);
-[[nodiscard]] physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground);
+// Friction or cohesion law (FrictionLaw, CohesionLaw) of one kind of ground, with its parameters. If the initial
+// cohesion is zero, the parameters of its loss are not needed.
+template <class Laws>
+[[nodiscard]] Laws law_of(const GroundStrength& ground);
 
 // Last time at which a case changes by itself, so that a slide at rest may start again: when ground loses its cohesion,
 // or the band changes its thickness [s]; 0 if there is none.

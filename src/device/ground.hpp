@@ -9,7 +9,7 @@
 #include "device/tile_tables.hpp"
 #include "exec/array.hpp"
 #include "mpm/vectors_in_records.hpp"
-#include "terrain/near_ground_kernel.hpp"
+#include "terrain/near_ground_kernels.hpp"
 
 namespace thawslide::device {
 

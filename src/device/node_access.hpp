@@ -46,6 +46,7 @@ struct NodeAccess {
     return block * block_nodes + in_block;
   }
   [[nodiscard]] THAWSLIDE_HD static std::size_t block(std::size_t node) { return node / block_nodes; }
+  [[nodiscard]] THAWSLIDE_HD static std::size_t in_block(std::size_t node) { return node % block_nodes; }
   [[nodiscard]] THAWSLIDE_HD Vector<double, Dim> position(std::size_t node) const {
     return position_of_node<Dim>(block_keys, node, cell);
   }

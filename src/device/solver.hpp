@@ -11,7 +11,7 @@
 #include "device/step_model.hpp"
 #include "mpm/front.hpp"
 #include "mpm/particle_view.hpp"
-#include "terrain/strength_law.hpp"
+#include "terrain/basal_law.hpp"
 
 namespace thawslide::device {
 

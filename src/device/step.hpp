@@ -6,34 +6,19 @@
 #include <variant>
 
 #include "device/band_stages.hpp"
-#include "device/deform_material.hpp"
-#include "device/erodible_bed.hpp"
+#include "device/contact_passes.hpp"
 #include "device/escape_check.hpp"
-#include "device/given_strengths.hpp"
-#include "device/ground.hpp"
 #include "device/maps.hpp"
-#include "device/node_kernels.hpp"
 #include "device/position_kernels.hpp"
 #include "device/reductions.hpp"
-#include "device/step_passes.hpp"
 #include "mpm/body_contact.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/monitor_sums.hpp"
 #include "mpm/motion_stages.hpp"
 #include "mpm/step_sequence.hpp"
 #include "mpm/velocity_filter.hpp"
-#include "terrain/band_marks_kernel.hpp"
 
 namespace thawslide::device {
-
-// The force of the walls of a section along x [N], from that on the ground.
-template <int Dim>
-struct SubtractForce {
-  const double* of_walls;
-  terrain::ContactWork<Dim>* contact;
-
-  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { contact->force[0] -= *of_walls; }
-};
 
 // Unit normals into the ground at nodes, for band columns.
 template <int Dim>
@@ -41,23 +26,9 @@ struct NormalsAtNodes {
   const terrain::GroundAtNode<Dim>* known;  // by node
 
   [[nodiscard]] THAWSLIDE_HD const Vector<double, Dim>& operator()(std::size_t block, std::size_t node) const {
-    return known[NodeStageArgs<Dim>::block_nodes * block + node].normal;
+    return known[static_cast<std::size_t>(mpm::Tile<Dim>::nodes) * block + node].normal;
   }
 };
-
-// cell: mesh size [m]. bases: by candidate node.
-template <class Backend, int Dim>
-void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, double cell,
-                           const Ground<Backend, Dim>& ground, const mpm::BaseStates<Dim>& columns,
-                           terrain::BasalNode* bases) {
-  const std::size_t count = ground.candidate_count();
-  const std::uint32_t* candidates = ground.candidates();
-  backend.for_each(count, PressOnGround<Dim>{step, candidates});
-  const double face = Dim == 2 ? cell : cell * cell;
-  backend.for_each(count, GatherBasalNode<Dim>{step, candidates, static_cast<double>(terrain::smallest_area) * face,
-                                               base.gravity, columns, bases});
-  terrain::evaluate_basal_law(base, bases, [&](const auto& kernel) { backend.for_each(count, kernel); });
-}
 
 // Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim>
@@ -73,14 +44,12 @@ class Step {
       : passes_(backend, model, particles, count, callbacks.ground),
         sums_(backend, 1),
         band_(passes_, callbacks, sums_.data()),
-        maps_(backend, model.cell, model.half_sizes) {
+        maps_(backend, model.cell, model.half_sizes),
+        bed_(callbacks.bed) {
     if (model.band_columns) {
       band_columns_.emplace(backend, *model.band_columns, model.cell, model.motion.gravity);
       band_columns_->set(model.segments);
       passes_.model.segments = {};
-    }
-    if (callbacks.bed != nullptr) {
-      bed_.emplace(backend, *callbacks.bed);
     }
     if (passes_.model.mapping.has_ground) {
       column_heights_.set(callbacks.column_heights());
@@ -211,59 +180,27 @@ class Step {
     }
     if (passes_.ground.exists()) {
       passes_.ground.update(blocks);
-      if (bed_) {
-        bed_->update(blocks, passes_.ground);
-      }
       exec::Array<double, Backend>& base = passes_.template of<mpm::BaseLoad>();
       base.resize(nodes * mpm::record_size(mpm::components_of<mpm::BaseLoad, Dim>));
       passes_.backend.for_each(base.size(), Fill<double>{base.data(), 0.0});
-      bases_.resize(passes_.ground.candidate_count());
     }
   }
   void resolve_contact(double time, double dt, const terrain::StrengthLaw* strength) {
-    const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
-    const double* strengths = nullptr;
     if (passes_.model.between_bodies.any()) {
       body_contact_.add_forces(between_bodies(dt));
     }
-    if (passes_.ground.exists()) {
-      const SeesCandidates<Dim> sees = SeesCandidates<Dim>{passes_.cells.tables().tile_keys};
-      passes_.run(passes_.momentum(sees),
-                  terrain::AddNearGround<Dim>{passes_.model.motion.phases, passes_.model.motion.lubrication});
-      passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
-      evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
-                            states_of_columns(step), bases_.data());
-      if (strength != nullptr && !step.options.base_is_fixed) {
-        strengths = given_.by(*strength, passes_.model.base, step, passes_.ground, bases_);
-      }
+    mpm::BaseStates<Dim> columns;
+    if (band_columns_) {
+      band_columns_->to_nodes(passes_.block_tables());
+      columns = band_columns_->states();
     }
-    if (bed_) {
-      bed_->update(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.model.cell, step.nodes,
-                   passes_.ground.candidates());
-      resolve_contact(step, strengths, bed_->below_nodes());
-      bed_->collect(dt);
-    } else {
-      resolve_contact(step, strengths, NoBeds{});
-    }
-    update_columns(step);
-    if (passes_.ground.exists()) {
-      passes_.backend.for_each(passes_.particles.size(),
-                               VisitInMemory<Dim, terrain::LeaveBand<Dim>>{passes_.particles.view(), {}});
-      passes_.run(passes_.linear(SeesCandidates<Dim>{passes_.cells.tables().tile_keys}), terrain::MarkBand<Dim>{dt});
-    }
+    ContactPasses<Backend, Shape, Dim> passes(passes_, time, dt);
+    contact_.resolve(
+        passes, passes_.model.contact, columns, [] {}, bed_, strength,
+        passes_.model.width.varies() ? force_of_walls_.data() : nullptr, &sums_.data()->contact);
+    update_columns(time, dt);
   }
-
-  [[nodiscard]] static mpm::BlockTables<Dim> blocks_of(const NodeStageArgs<Dim>& step) {
-    return {step.tables.blocks, step.tables.block_keys, step.tables.blocks_about_block};
-  }
-  [[nodiscard]] mpm::BaseStates<Dim> states_of_columns(const NodeStageArgs<Dim>& step) {
-    if (!band_columns_) {
-      return {};
-    }
-    band_columns_->to_nodes(blocks_of(step));
-    return band_columns_->states();
-  }
-  void update_columns(const NodeStageArgs<Dim>& step) {
+  void update_columns(double time, double dt) {
     if (band_columns_) {
       using OfColumns = terrain::GroundAnywhere<Dim, ColumnHeights<Dim>>;
       const OfColumns ground{passes_.model.columns,
@@ -273,23 +210,8 @@ class Step {
                              passes_.width()};
       band_columns_->update(
           band::BaseInStep<ContactNodes<Dim>, OfColumns, NormalsAtNodes<Dim>, Dim>{
-              blocks_of(step), step.nodes, ground, {passes_.ground.known()}},
-          passes_.model.band_thickness(step.time), step.dt);
-    }
-  }
-
-  template <class Beds>
-  void resolve_contact(const NodeStageArgs<Dim>& step, const double* strengths, const Beds& beds) {
-    const std::size_t blocks = step.tables.blocks;
-    passes_.keep(block_pass<Dim>(
-                     passes_.backend, blocks,
-                     ResolveContact<Beds, Dim>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
-                                               bases_.data(), strengths, passes_.model.base.clamp,
-                                               passes_.model.base.cap_pressure, passes_.model.base.heat_fraction, beds},
-                     passes_.memory.template sums<terrain::ContactWork<Dim>>(partial_sum_count(blocks))),
-                 &sums_.data()->contact);
-    if (passes_.model.width.varies()) {  // the walls are part of the ground
-      passes_.backend.for_each(1, SubtractForce<Dim>{force_of_walls_.data(), &sums_.data()->contact});
+              passes_.block_tables(), passes_.contact_nodes(), ground, {passes_.ground.known()}},
+          passes_.model.band_thickness(time), dt);
     }
   }
 
@@ -299,8 +221,9 @@ class Step {
     if (motion.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
       mpm::stages::filter_velocities<Dim>(passes_, motion.filter_order, &sums_.data()->filtered);
     }
-    passes_.keep(passes_.template solve<mpm::Velocity>(nullptr, MapBack<Dim>{passes_.nodes_in_step(time, dt)}),
-                 &sums_.data()->mapped_back);
+    passes_.template sum_all<mpm::Velocity>();
+    ContactPasses<Backend, Shape, Dim>(passes_, time, dt)
+        .add_nodes(terrain::MapBack<Dim>{motion.gravity}, &sums_.data()->mapped_back);
     if (passes_.model.between_bodies.any()) {
       const std::size_t count = body_contact_.work_count();
       auto* works = passes_.memory.template sums<mpm::BodyContactWork>(partial_sum_count(count));
@@ -321,21 +244,8 @@ class Step {
   }
 
   void update_stress_and_porosity(double dt) {
-    const mpm::MotionParameters<Dim>& motion = passes_.model.motion;
-    mpm::with_width<Dim>(passes_.width(), [&]<class Width>(const Width& width) {
-      for (std::int32_t number = 0; const mpm::MaterialModel& material : motion.materials) {
-        std::visit(
-            [&]<class Law>(const Law& law) {
-              using Kernel = DeformMaterial<Dim, Law, Width>;
-              passes_.add_total(passes_.momentum(),
-                                Kernel{law, material, motion.phases, motion.effective_stress, dt, width, number,
-                                       motion.materials.size() == 1},
-                                &sums_.data()->deformed);
-            },
-            material.law);
-        ++number;
-      }
-    });
+    mpm::stages::update_stress_and_porosity<Dim>(passes_, passes_.model.motion, passes_.width(), dt,
+                                                 &sums_.data()->deformed);
   }
 
   // Updates positions and evaluates the reductions that the CPU requested.
@@ -384,11 +294,10 @@ class Step {
   BandStages<Backend, Shape, Dim> band_;
   Maps<Backend> maps_;
   std::optional<band::BasalSegments<Backend, Dim>> band_columns_;  // none unless the band consists of columns
-  std::optional<ErodibleBed<Backend, Dim>> bed_;                   // none without an erodible bed
+  terrain::Bed<Dim>* bed_;                                         // on the CPU; null without an erodible bed
   exec::Array<double, Backend> column_heights_{passes_.backend};
   exec::Array<double, Backend> free_gaps_{passes_.backend};
-  GivenStrengths<Backend, Dim> given_{passes_.backend};
-  exec::Array<terrain::BasalNode, Backend> bases_{passes_.backend};
+  terrain::ContactStage<Backend, Dim> contact_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   mpm::Front<Backend, Dim> front_{passes_.backend};
 };

@@ -18,11 +18,7 @@
 #include "mpm/records.hpp"
 #include "mpm/section_width.hpp"
 #include "mpm/tile.hpp"
-#include "terrain/basal_law.hpp"
-#include "terrain/bed.hpp"
-#include "terrain/column_heights.hpp"
 #include "terrain/contact_stage.hpp"
-#include "terrain/ground_at_node.hpp"
 
 namespace thawslide::device {
 
@@ -43,8 +39,7 @@ struct StepModel {
   Vector<double, Dim> lower, upper;                                        // bounds of particle positions [m]
   bool finds_extremes = false;                                             // StepSums::extremes is required
   bool counts_escaped = false;                                             // StepSums::escapes is required
-  terrain::BasalLaw base;
-  terrain::ContactOptions contact;
+  terrain::ContactModel contact;
   bool starts = true;  // the next step is the first one, from t = 0
   double time = 0;     // at its beginning [s]
   band::BandParameters<Dim> band;

@@ -1,17 +1,19 @@
 // Data common to all stages of a step on a device: particles, cells, nodal records, and the passes over them.
 #pragma once
 
+#include <variant>
+#include <vector>
+
 #include "device/add_up.hpp"
 #include "device/body_sizes.hpp"
 #include "device/cells.hpp"
 #include "device/ground.hpp"
 #include "device/marks.hpp"
-#include "device/node_kernels.hpp"
 #include "device/node_memory.hpp"
 #include "device/particles.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/kernel.hpp"
-#include "terrain/near_ground_kernel.hpp"
+#include "mpm/prescribed_motion.hpp"
 
 namespace thawslide::device {
 
@@ -93,6 +95,26 @@ struct SumOf {
   }
 };
 
+// Kernel for the particles of one material.
+template <class Kernel>
+struct OfMaterial {
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Totals = typename Kernel::Totals;
+
+  Kernel kernel;
+  std::int32_t number;  // of the material
+  bool is_only_one;     // all particles have this material
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Totals& totals) const {
+    if (is_only_one || particles.material(at.particle[0]) == number) {
+      kernel(particles, at, seen, added, totals);
+    }
+  }
+};
+
 // Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim>
 class StepPasses {
@@ -153,6 +175,17 @@ class StepPasses {
   template <class Over, class Kernel>
   void add_total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
     backend.for_each(1, Add<typename Kernel::Totals>{&run(over, kernel)->template of<Kernel>(), to});
+  }
+  // As in mpm::StepPasses, in one pass per material.
+  template <class Over, class Kernels, class Totals>
+  void add_total_by_material(const Over& over, const std::vector<Kernels>& by_material, Totals* to) {
+    for (std::size_t k = 0; k < by_material.size(); ++k) {
+      std::visit(
+          [&]<class Kernel>(const Kernel& kernel) {
+            add_total(over, OfMaterial<Kernel>{kernel, static_cast<std::int32_t>(k), by_material.size() == 1}, to);
+          },
+          by_material[k]);
+    }
   }
   template <class... Names>
   void resize_records() {
@@ -229,18 +262,12 @@ class StepPasses {
     return nodes.template access<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::BaseLoad,
                                  mpm::Contact, mpm::Motion, mpm::Velocity>(cells.tables().block_keys, model.cell);
   }
-  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(double time, double dt) {
-    return {cells.tables(),
-            contact_nodes(),
-            ground.exists() ? ground.known() : nullptr,
-            {conditions_.data(), conditions_.size()},
-            model.motion.gravity,
-            model.cell,
-            time,
-            dt,
-            model.contact,
-            model.between_bodies.first_held_layer(),
-            width()};
+  [[nodiscard]] mpm::PrescribedMotion<Dim> prescribed_motion() const {
+    return {conditions_.data(), conditions_.size()};
+  }
+  [[nodiscard]] mpm::BlockTables<Dim> block_tables() const {
+    const TileTables<Dim> tables = cells.tables();
+    return {tables.blocks, tables.block_keys, tables.blocks_about_block};
   }
 
   // Nodal records that a pass reads (device/passes.hpp).

@@ -8,7 +8,7 @@
 #include "band/step_extremes.hpp"
 #include "mpm/between_bodies.hpp"
 #include "mpm/kernel_totals.hpp"
-#include "terrain/contact_work.hpp"
+#include "terrain/contact_node.hpp"
 
 namespace thawslide::device {
 

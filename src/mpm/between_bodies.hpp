@@ -34,7 +34,7 @@ struct BetweenBodies {
 // Contribution of contact between bodies to the energy budget [J].
 struct BodyContactWork {
   double loss = 0;       // dissipated by impact and friction
-  double numerical = 0;  // correction of map_back, which counts contact among internal forces
+  double numerical = 0;  // correction of mapped_back, which counts contact among internal forces
 
   THAWSLIDE_HD BodyContactWork& operator+=(const BodyContactWork& part) {
     loss += part.loss;

@@ -26,22 +26,20 @@ class BlockConstraints {
   BlockConstraints(const SparseGrid<Dim>& grid, const Constraints<Dim>& constraints, std::size_t block, double time)
       : grid_(&grid),
         motion_(constraints.motion()),
-        block_(block),
         time_(time),
         held_(Tile<Dim>::layer(grid.blocks()[block]) >= constraints.first_held_layer),
         may_apply_(motion_.may_apply(node_position(grid, block, 0),
                                      node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1),
                                      time)) {}
 
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE NodeConstraints<Dim> at(std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE NodeConstraints<Dim> operator()(const NodeAt& at) const {
     const Vector<double, Dim> unused = Vector<double, Dim>::Zero();
-    return {motion_, may_apply_ ? node_position(*grid_, block_, node) : unused, time_, held_, may_apply_};
+    return {motion_, may_apply_ ? node_position(*grid_, at.block, at.node) : unused, time_, held_, may_apply_};
   }
 
  private:
   const SparseGrid<Dim>* grid_;
   PrescribedMotion<Dim> motion_;
-  std::size_t block_;
   double time_;
   bool held_, may_apply_;
 };

@@ -2,9 +2,13 @@
 // (device/step_passes.hpp). Totals are written to memory of the executor.
 #pragma once
 
+#include <variant>
+#include <vector>
+
 #include "mpm/motion_kernels.hpp"
 #include "mpm/parameters.hpp"
 #include "mpm/section_width.hpp"
+#include "mpm/stress_kernel.hpp"
 
 namespace thawslide::mpm::stages {
 
@@ -36,6 +40,25 @@ void move_particles(Passes& passes, const MotionParameters<Dim>& motion, double 
   if (motion.is_affine()) {
     passes.add_total(passes.affine(), MoveAffine<Dim>{dt}, gained);
   }
+}
+
+// Updates strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back
+// velocities. The constitutive law is selected outside the kernels. deformed: to which the work is added.
+template <int Dim, class Passes>
+void update_stress_and_porosity(Passes& passes, const MotionParameters<Dim>& motion, const WidthView& width, double dt,
+                                Deformed* deformed) {
+  with_width<Dim>(width, [&]<class Width>(const Width& of_section) {
+    std::vector<typename DeformByLaw<Dim, Width>::Type> by_material;
+    for (const MaterialModel& material : motion.materials) {
+      std::visit(
+          [&]<class Law>(const Law& law) {
+            by_material.push_back(
+                Deform<Dim, Law, Width>{law, material, motion.phases, motion.effective_stress, dt, of_section});
+          },
+          material.law);
+    }
+    passes.add_total_by_material(passes.momentum(), by_material, deformed);
+  });
 }
 
 }  // namespace thawslide::mpm::stages

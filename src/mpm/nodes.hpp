@@ -1,7 +1,6 @@
 // Nodal records of the grid during a step.
 #pragma once
 
-#include "mpm/base_states.hpp"
 #include "mpm/records.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/vectors_in_records.hpp"
@@ -43,7 +42,6 @@ struct Nodes {
   SparseRecordsOf<SecantRates, Dim> secant_rates{pool};  // in blocks with temperature changes
   SparseRecordsOf<Seepage, Dim> seepage{pool};           // in blocks that water can seep to
   SparseRecordsOf<SeepingWater, Dim> seeping_water{pool};
-  BaseStates<Dim> base_states;
   ActivityMarks marks;
 
   template <class Name>
@@ -88,6 +86,7 @@ struct NodeAccess {
   }
   [[nodiscard]] static NodeAt node(std::size_t block, std::size_t in_block) { return {block, in_block}; }
   [[nodiscard]] static std::size_t block(const NodeAt& at) { return at.block; }
+  [[nodiscard]] static std::size_t in_block(const NodeAt& at) { return at.node; }
   [[nodiscard]] Vector<double, Dim> position(const NodeAt& at) const { return node_position(grid, at.block, at.node); }
 };
 

@@ -7,11 +7,32 @@
 #include <cstdint>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "mpm/node_pass.hpp"
 #include "mpm/particle_pass.hpp"
 
 namespace thawslide::mpm {
+
+// Runs the kernel of a particle's material, which all particles of a batch share.
+template <class Kernels>
+struct ByMaterial;
+template <class Kernel, class... Others>
+struct ByMaterial<std::variant<Kernel, Others...>> {
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Totals = typename Kernel::Totals;
+
+  const std::variant<Kernel, Others...>* by_material;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                                          Totals& totals) const {
+    std::visit([&](const auto& kernel) { kernel(particles, at, seen, added, totals); },
+               by_material[static_cast<std::size_t>(particles.material(at.particle[0]))]);
+  }
+};
 
 template <int Dim>
 class StepPasses {
@@ -47,6 +68,11 @@ class StepPasses {
   template <class Over, class Kernel>
   void add_total(const Over& over, const Kernel& kernel, typename Kernel::Totals* to) {
     *to += run(over, kernel);
+  }
+  // Adds the totals of the kernels of each material, in the order of their numbers.
+  template <class Over, class Kernel, class Totals>
+  void add_total_by_material(const Over& over, const std::vector<Kernel>& by_material, Totals* to) {
+    add_total(over, ByMaterial<Kernel>{by_material.data()}, to);
   }
 
   template <class... Names>

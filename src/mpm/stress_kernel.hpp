@@ -1,4 +1,4 @@
-// Particle kernels (mpm/kernel.hpp) of update_stress_and_porosity.
+// Particle kernels (mpm/kernel.hpp) of update_stress_and_porosity, one per constitutive law.
 #pragma once
 
 #include <cmath>
@@ -31,9 +31,9 @@ struct Deform {
   using Adds = RecordList<>;
   using Totals = Deformed;
 
-  const Law& law;
-  const MaterialParameters& material;
-  const physics::Phases& phases;
+  Law law;
+  MaterialParameters material;
+  physics::Phases phases;
   bool effective_stress;  // pore pressure also acts inside the body
   double dt;
   Width width{};
@@ -133,29 +133,12 @@ struct Deform {
   }
 };
 
-// The same for particles of any material. The CPU selects the law per batch, because a batch has one material.
-template <int Dim, class Width = EvenWidth>
-struct UpdateStress {
-  using Reads = RecordList<Velocity>;
-  using Adds = RecordList<>;
-  using Totals = Deformed;
-
-  const MaterialModel* materials;
-  const physics::Phases& phases;
-  bool effective_stress;
-  double dt;
-  Width width{};
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                                          Totals& totals) const {
-    const MaterialModel& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
-    const auto deform = [&]<class Law>(const Law& law) {
-      const Deform<Dim, Law, Width> with_law{law, material, phases, effective_stress, dt, width};
-      with_law(particles, at, seen, added, totals);
-    };
-    std::visit(deform, material.law);
-  }
+// The kernel of any law.
+template <int Dim, class Width, class Laws = physics::ConstitutiveLaw>
+struct DeformByLaw;
+template <int Dim, class Width, class... Laws>
+struct DeformByLaw<Dim, Width, std::variant<Laws...>> {
+  using Type = std::variant<Deform<Dim, Laws, Width>...>;
 };
 
 }  // namespace thawslide::mpm

@@ -26,7 +26,7 @@
 #include "run/live_run.hpp"
 #include "run/run_loop.hpp"
 #include "run/start.hpp"
-#include "terrain/strength_law.hpp"
+#include "terrain/basal_law.hpp"
 #include "version.hpp"
 
 namespace nb = nanobind;

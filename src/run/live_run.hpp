@@ -11,7 +11,7 @@
 #include "config/case.hpp"
 #include "run/observer.hpp"
 #include "sim/records/history.hpp"
-#include "terrain/strength_law.hpp"
+#include "terrain/basal_law.hpp"
 
 namespace thawslide::run {
 

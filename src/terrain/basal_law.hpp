@@ -1,9 +1,10 @@
-// Basal strength at contact nodes (Eqs. 17, 25 and the cohesion laws).
+// Basal strength at contact nodes (Eqs. 17, 25 and the cohesion laws), by the laws of the case or by the caller of a
+// step: one call with all loaded nodes.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -44,24 +45,13 @@ struct BasalNode {
   // Coefficient mu_e, pore pressure that reduces friction [Pa], drag [Pa] and c_S [Pa].
   double friction = 0, relief = 0, drag = 0, cohesion = 0;
 
-  // Sets what a law of friction or cohesion determines.
-  template <class Law>
-  THAWSLIDE_HD void evaluate(const Law& law) {
-    if constexpr (requires { law.coefficient(state); }) {
-      friction = law.coefficient(state);
-      drag = physics::basal::drag_of(law, state);
-      relief = Law::depends_on_pore_pressure ? state.pore_pressure : 0.0;
-    } else {
-      cohesion = law.cohesion(state);
-    }
-  }
   // Of the base, against sliding [Pa].
   [[nodiscard]] THAWSLIDE_HD double strength(physics::FrictionClamp clamp, bool cap_pressure) const {
     return physics::sliding_strength(friction, state.normal_pressure, relief, cohesion, clamp, cap_pressure) + drag;
   }
 };
 
-// Evaluates a law at nodes in contact on one substrate.
+// Evaluates a law of friction or cohesion at nodes in contact on one substrate.
 template <class Law>
 struct EvaluateLaw {
   Law law;
@@ -69,30 +59,45 @@ struct EvaluateLaw {
   BasalNode* nodes;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    if (nodes[k].area > 0.0 && nodes[k].substrate == substrate) {
-      nodes[k].evaluate(law);
+    BasalNode& node = nodes[k];
+    if (!(node.area > 0.0) || node.substrate != substrate) {
+      return;
+    }
+    if constexpr (requires { law.coefficient(node.state); }) {
+      node.friction = law.coefficient(node.state);
+      node.drag = physics::basal::drag_of(law, node.state);
+      node.relief = Law::depends_on_pore_pressure ? node.state.pore_pressure : 0.0;
+    } else {
+      node.cohesion = law.cohesion(node.state);
     }
   }
 };
 
-// Computes friction and cohesion of the nodes in contact. for_each(kernel): calls kernel(k) for all nodes. Laws are
-// dispatched once, outside the loop over nodes.
-template <class ForEach>
-void evaluate_basal_law(const BasalLaw& law, BasalNode* nodes, const ForEach& for_each) {
+// Computes friction and cohesion of the nodes in contact, in memory of the executor. Laws are dispatched once, outside
+// the loop over nodes.
+template <class Executor>
+void evaluate_basal_law(Executor& executor, const BasalLaw& law, BasalNode* nodes, std::size_t count) {
   for (std::size_t number = 0; number < law.grounds.size(); ++number) {
     const auto evaluate = [&]<class Law>(const Law& one) {
-      for_each(EvaluateLaw<Law>{one, static_cast<int>(number), nodes});
+      executor.for_each(count, EvaluateLaw<Law>{one, static_cast<int>(number), nodes});
     };
     std::visit(evaluate, law.grounds[number].friction);
     std::visit(evaluate, law.grounds[number].cohesion);
   }
 }
-inline void evaluate_basal_law(const BasalLaw& law, std::span<BasalNode> nodes) {
-  evaluate_basal_law(law, nodes.data(), [&](const auto& kernel) {
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      kernel(k);
-    }
-  });
-}
+
+// Loaded contact nodes of a step, one array per quantity. Their order is that of the blocks and of the nodes in a
+// block, independent of the number of threads. Quantities are those of BasalNode.
+struct LoadedNodes {
+  double time = 0, dt = 0;       // begin and duration of the step [s]
+  std::vector<double> position;  // Dim numbers per node [m], relative to the domain's lower corner
+  std::vector<double> area;      // of contact [m2]
+  std::vector<int> substrate;
+  std::vector<double> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
+  std::vector<double> strength;  // of the case's laws [Pa]; the law of the caller replaces the values
+};
+
+// Called by the thread that performs the step, before the step changes particles.
+using StrengthLaw = std::function<void(LoadedNodes&)>;
 
 }  // namespace thawslide::terrain

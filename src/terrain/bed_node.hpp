@@ -1,18 +1,18 @@
 // Entrainment of the bed by one node, and bed parts covered by a particle. For host and device.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "base/linear.hpp"
 #include "base/select.hpp"
 #include "mpm/records.hpp"
 #include "mpm/tile.hpp"
+#include "physics/contact.hpp"
 #include "physics/entrainment.hpp"
 #include "physics/options.hpp"
-#include "terrain/contact_node.hpp"
 
 namespace thawslide::terrain {
 
@@ -46,11 +46,13 @@ struct BedColumns {
     return number;
   }
   // The same for the column of a node of a block.
-  [[nodiscard]] std::size_t number_of(std::uint64_t block, std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_HD std::size_t number_of(std::uint64_t block, std::size_t node) const {
     using T = mpm::Tile<Dim>;
     const typename T::Index index = T::node(T::index(block), static_cast<int>(node));
     Column column{};
-    std::copy_n(index.begin(), column.size(), column.begin());
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      column[a] = index[a];
+    }
     return number_of(column);
   }
 };
@@ -98,6 +100,13 @@ THAWSLIDE_HD void for_covered_parts(const BedColumns<Dim>& columns, const Partic
   }
 }
 
+// Transfer from a contact node to the bed material in a step.
+struct EntrainmentImpulse {
+  double entrained = 0;    // [kg]
+  double impulse = 0;      // along the slip [N s]
+  double of_friction = 0;  // part of it already removed by friction [N s]
+};
+
 // Entrainment by a node of a mass [kg] that slides at `speed` > 0 [m/s] after friction with the strength `shear` [Pa].
 // available: bed mass available to it [kg].
 inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& material, double available, double mass,
@@ -115,34 +124,37 @@ inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& materia
   return {entrained, entrained * physics::speed_after_entrainment(mass, speed, entrained), 0.0};
 }
 
-// Entrainment by a sliding node. Fills its record of BedLayout; the momentum along the slip is that after friction.
-// material: null if there is no bed.
+// Bed below the candidate nodes of a step, by their numbers.
 template <int Dim>
-struct BedBelowNode {
-  const BedMaterial* material;
-  double* numbers;
-  double area, strength, dt, mass;
+struct BedBelowNodes {
+  using Layout = mpm::BedLayout<Dim>;
 
-  template <int>
-  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse entrain(const physics::ContactImpulse& impulse, double normal_pressure,
-                                                        const Vector<double, Dim>& along,
+  BedMaterial material;
+  double* records;  // of BedLayout; null: there is no bed
+
+  // Entrainment by a sliding node of a mass [kg] after friction with the strength of the base [Pa]. Fills the node's
+  // record; the momentum along the slip is that after friction.
+  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse entrain(std::size_t candidate, const physics::ContactImpulse& impulse,
+                                                        double normal_pressure, double area, double strength, double dt,
+                                                        double mass, const Vector<double, Dim>& along,
                                                         double tangential_size) const {
-    using Layout = mpm::BedLayout<Dim>;
-    if (material == nullptr || !impulse.slides || !(numbers[Layout::available] > 0.0)) {
+    double* record = records + candidate * Layout::size;
+    if (records == nullptr || !impulse.slides || !(record[Layout::available] > 0.0)) {
       return {};
     }
     const double speed = (tangential_size - impulse.tangential) / mass;
     const EntrainmentImpulse entrain =
-        entrainment_of(*material, numbers[Layout::available], mass, speed, strength, normal_pressure, area, dt);
-    numbers[Layout::entrained] = entrain.entrained;
+        entrainment_of(material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
+    record[Layout::entrained] = entrain.entrained;
     for (std::size_t a = 0; a < Dim; ++a) {
-      numbers[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
+      record[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
     }
     return entrain;
   }
-  THAWSLIDE_HD void record(double work, double normal_pressure) const {
-    numbers[mpm::BedLayout<Dim>::work] = work;
-    numbers[mpm::BedLayout<Dim>::normal_pressure] = normal_pressure;
+  // The work on the entrained material [J], and the normal pressure on the bed [Pa].
+  THAWSLIDE_HD void record(std::size_t candidate, double work, double normal_pressure) const {
+    records[candidate * Layout::size + Layout::work] = work;
+    records[candidate * Layout::size + Layout::normal_pressure] = normal_pressure;
   }
 };
 

@@ -1,209 +1,261 @@
 #include "terrain/contact.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
-#include <vector>
+#include <array>
+#include <type_traits>
 
 #include "base/instances.hpp"
-#include "terrain/block_step.hpp"
-#include "terrain/contact_stage.hpp"
+#include "mpm/node_pass.hpp"
+#include "mpm/particle_pass.hpp"
 
 namespace thawslide::terrain {
 
 namespace {
 
-using mpm::BaseLoad, mpm::NodeAt;
+using mpm::NodeAt;
 
+// Ground at the nodes of a block; null without candidate nodes.
 template <int Dim>
-inline constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+struct GroundOfBlock {
+  const typename GroundOnGrid<Dim>::Block* nodes;
 
-// Nodes of a block that are in contact, and their places in it.
-struct BlockContact {
-  std::vector<std::size_t> node;
-  std::vector<BasalNode> base;
+  const GroundAtNode<Dim>& operator()(const NodeAt& at) const { return (*nodes)[at.node]; }
 };
 
-// Finds the nodes of a block in contact, and evaluates the laws of the case. reads_mass: as in ContactModel, true for a
-// law of the caller.
+// Planes of nodes, from the ground at nodes.
 template <int Dim>
-void find_contact(const BlockStep<Dim>& step, double cell, const ContactModel<Dim>& model, bool reads_mass,
-                  BlockContact& contact) {
-  contact.node.clear();
-  contact.base.clear();
-  const double smallest = smallest_area * (Dim == 2 ? cell : cell * cell);
-  BasalNode base;
-  for (std::size_t k = 0; k < step.candidates; ++k) {
-    const double* columns = step.nodes.nodes.base_states.at(step.block, k);
-    gather_basal_node(step, NodeAt{step.block, k}, smallest, model.law.gravity, reads_mass, columns, base);
-    if (base.area > 0.0) {
-      contact.node.push_back(k);
-      contact.base.push_back(base);
-    }
-  }
-  if (!contact.base.empty()) {
-    evaluate_basal_law(model.law, contact.base);
-  }
-}
+struct PlanesOfGround {
+  using Record = std::array<double, mpm::record_size(mpm::components_of<mpm::Planes, Dim>)>;
 
-// Initializes a block without contact. known: ground at its nodes.
-template <int Dim>
-void start_block(const typename GroundOnGrid<Dim>::Block& known, std::size_t b, mpm::Nodes<Dim>& nodes) {
-  for (std::size_t k = 0; k < block_nodes<Dim>; ++k) {
-    nodes.contact.of_block(b)[k] = {known[k].candidate ? 1.0 : 0.0};
+  static Record record_of(const GroundAtNode<Dim>& known) {
+    Record record{known.plane};
+    mpm::set_vector<Dim>(record, mpm::Planes::normal, known.plane_scale * known.normal);
+    return record;
   }
-}
 
-// Strengths by a law of the caller: of all loaded nodes, and the first one of each block.
-struct GivenStrengths {
-  std::vector<std::size_t> first;
-  LoadedNodes nodes;
+  const GroundOnGrid<Dim>& ground;
 };
 
-// Collects the loaded nodes of all blocks on one thread, and calls the law.
 template <int Dim>
-GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                            const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
-                            double dt, mpm::Nodes<Dim>& nodes) {
-  GivenStrengths given;
-  BlockContact contact;
-  given.nodes.time = time;
-  given.nodes.dt = dt;
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    given.first.push_back(given.nodes.strength.size());
-    const BlockStep<Dim> step(grid, ground, constraints, model, time, dt, nodes, b);
-    find_contact(step, grid.cell(), model, true, contact);
-    for (std::size_t c = 0; c < contact.node.size(); ++c) {
-      const NodeAt at{step.block, contact.node[c]};
-      Vector<double, Dim> position = mpm::node_position(grid, at.block, at.node);
-      position[Dim - 1] = step.ground(at).elevation;
-      add_loaded_node<Dim>(position.data(), contact.base[c], model.law, given.nodes);
-    }
-  }
-  replace_strengths(law, given.nodes);
-  return given;
+void load_patch(const mpm::SparseGrid<Dim>& grid, std::size_t t, const PlanesOfGround<Dim>& records,
+                mpm::PatchOf<mpm::Planes, Dim>& patch) {
+  const std::int32_t* blocks = grid.blocks_about_tile(t);
+  mpm::for_each_direction<Dim>([&](auto d) {
+    const auto& block = records.ground.block(static_cast<std::size_t>(blocks[d]));
+    mpm::for_shared_nodes<Dim, d>(
+        [&](std::size_t in_block, std::size_t in_patch) {
+          patch.records[in_patch] = PlanesOfGround<Dim>::record_of(block[in_block]);
+        },
+        grid.rows_seen(t));
+  });
 }
 
+// Records of a pass that reads ground data.
 template <int Dim>
-void apply_contact_conditions(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                              mpm::Nodes<Dim>& nodes) {
-  nodes.contact.allocate(grid.blocks().size(),
-                         [&](std::size_t b) { return ground != nullptr && ground->any_candidate(b); });
-}
+struct NodesOnGround {
+  mpm::Nodes<Dim>& nodes;
+  const GroundOnGrid<Dim>& ground;
+
+  template <class Name>
+  [[nodiscard]] decltype(auto) of() const {
+    if constexpr (std::is_same_v<Name, mpm::Planes>) {
+      return PlanesOfGround<Dim>{ground};
+    } else {
+      return nodes.template of<Name>();
+    }
+  }
+};
+
+// Filter for tiles, batches and particles that reach candidate nodes with any shape function.
+template <int Dim>
+struct SeesCandidates {
+  const GroundOnGrid<Dim>& ground;
+
+  [[nodiscard]] bool operator()(std::size_t tile) const { return ground.any_near(tile); }
+  // nodes: of a batch, or the place of the lowest node of a particle.
+  template <class Nodes>
+  [[nodiscard]] bool operator()(std::size_t tile, const Nodes& nodes) const {
+    return ground.any_near(tile, nodes);
+  }
+};
+
+// Passes of contact (terrain/contact_stage.hpp) on the CPU. One thread visits the nodes of a block.
+template <int Dim>
+class ContactPasses {
+ public:
+  static constexpr bool is_queued = false;
+
+  ContactPasses(const SlideOnGround<Dim>& slide, double time, double dt) : slide_(slide), time_(time), dt_(dt) {}
+
+  // Selects the blocks with records of contact. Those of BaseLoad are 0 at nodes that are no candidates.
+  void allocate_records() const {
+    const std::size_t blocks = slide_.grid.blocks().size();
+    const auto any_candidate = [this](std::size_t b) { return candidates(b) != 0; };
+    slide_.nodes.motion.resize(blocks);
+    slide_.nodes.contact.allocate(blocks, any_candidate);
+    slide_.nodes.base.allocate(blocks, any_candidate);
+    parallel_for(blocks, [&](std::size_t b) {
+      if (any_candidate(b)) {
+        std::fill_n(slide_.nodes.base.of_block(b), slide_.nodes.base.nodes,
+                    typename mpm::SparseRecordsOf<mpm::BaseLoad, Dim>::Record{});
+      }
+    });
+  }
+
+  [[nodiscard]] bool has_ground() const { return slide_.ground != nullptr; }
+  [[nodiscard]] std::size_t candidate_count() const { return has_ground() ? slide_.ground->candidate_count() : 0; }
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] double dt() const { return dt_; }
+  [[nodiscard]] double cell() const { return slide_.grid.cell(); }
+  [[nodiscard]] std::size_t particle_count() const { return slide_.particles.size(); }
+  [[nodiscard]] mpm::ParticleView<Dim> particles() const { return mpm::view_of(slide_.particles); }
+  [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return slide_.motion.sizes.view(); }
+
+  void near_ground_to_grid(bool with_state) const {
+    if (with_state) {
+      to_candidates<mpm::NearGround, mpm::Clearance>(
+          AddNearGround<Dim>{slide_.motion.phases, slide_.motion.lubrication});
+    } else {
+      to_candidates<mpm::Clearance>(LowerClearance<Dim>{});
+    }
+  }
+  template <class Kernel>
+  void for_candidates(const Kernel& kernel) const {
+    parallel_for(slide_.grid.blocks().size(), [&](std::size_t b) {
+      if (const std::size_t count = candidates(b); count != 0) {
+        const auto step = in_block(b);
+        for (std::size_t k = 0; k < count; ++k) {
+          kernel(step, NodeAt{b, k}, slide_.ground->first_candidate(b) + k);
+        }
+      }
+    });
+  }
+  template <class Condition>
+  [[nodiscard]] bool any_candidate(const Condition& condition) const {
+    return parallel_any(slide_.grid.blocks().size(), [&](std::size_t b) {
+      const auto step = in_block(b);
+      for (std::size_t k = 0; k < candidates(b); ++k) {
+        if (condition(step, NodeAt{b, k}, slide_.ground->first_candidate(b) + k)) {
+          return true;
+        }
+      }
+      return false;
+    });
+  }
+  template <class Kernel>
+  void add_nodes(const Kernel& kernel, typename Kernel::Sum* to) const {
+    using Sum = typename Kernel::Sum;
+    *to = parallel_sum<Sum>(slide_.grid.blocks().size(), [&](std::size_t b, Sum& sum) {
+      const auto step = in_block(b);
+      const std::size_t count = candidates(b);
+      const auto first = static_cast<std::int32_t>(count != 0 ? slide_.ground->first_candidate(b) : 0);
+      for (const bool touching : {false, true}) {
+        for (std::size_t k = 0; k < (touching ? count : static_cast<std::size_t>(mpm::Tile<Dim>::nodes)); ++k) {
+          const std::int32_t candidate = k < count ? first + static_cast<std::int32_t>(k) : absent;
+          if (kernel.touches(candidate) == touching) {
+            kernel(step, NodeAt{b, k}, candidate, sum, sum);
+          }
+        }
+      }
+    });
+  }
+  template <class Kernel>
+  void visit_particles(const Kernel& kernel) const {
+    mpm::for_particles_in_memory(slide_.particles, kernel);
+  }
+  template <class Kernel>
+  void linear_near_ground(const Kernel& kernel) const {
+    mpm::particle_pass(slide_.grid, mpm::LinearWeights{}, slide_.particles, slide_.nodes,
+                       SeesCandidates<Dim>{*slide_.ground}, kernel);
+  }
+
+ private:
+  // Number of candidate nodes of a block, its first nodes.
+  [[nodiscard]] std::size_t candidates(std::size_t b) const { return has_ground() ? slide_.ground->candidates(b) : 0; }
+  [[nodiscard]] auto in_block(std::size_t b) const {
+    using Walls = mpm::BlockConstraints<Dim>;
+    return NodesInStep<mpm::NodeAccess<Dim>, GroundOfBlock<Dim>, Walls, Dim>{
+        {slide_.grid, slide_.nodes},
+        {candidates(b) != 0 ? &slide_.ground->block(b) : nullptr},
+        Walls(slide_.grid, slide_.constraints, b, time_),
+        slide_.grid.block_tables(),
+        slide_.motion.width.view(),
+        slide_.options,
+        slide_.grid.cell(),
+        time_,
+        dt_};
+  }
+  // Scatters particles to the candidate nodes with a kernel, and sums the named parts of their records over tiles.
+  template <class... Parts, class Kernel>
+  void to_candidates(const Kernel& kernel) const {
+    const SeesCandidates<Dim> sees_candidates{*slide_.ground};
+    NodesOnGround<Dim> records{slide_.nodes, *slide_.ground};
+    const mpm::MomentumWeights<Dim> weights{slide_.motion.shape, slide_.motion.sizes, slide_.motion.sides};
+    mpm::particle_pass(slide_.grid, weights, slide_.particles, records, sees_candidates, kernel);
+    const std::size_t blocks = slide_.grid.blocks().size();
+    slide_.nodes.near_ground.allocate(blocks, [this](std::size_t b) { return candidates(b) != 0; });
+    parallel_for(blocks, [&](std::size_t b) {
+      if (candidates(b) != 0) {
+        (mpm::sum_block<Parts>(slide_.grid, b, slide_.nodes, sees_candidates), ...);
+      }
+    });
+  }
+
+  const SlideOnGround<Dim>& slide_;
+  double time_, dt_;
+};
 
 }  // namespace
 
 template <int Dim>
-void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time, double dt,
-                     mpm::Nodes<Dim>& nodes) {
-  // by block: 1 if a node is loaded; persistent, to avoid allocation in each step
-  thread_local std::vector<std::uint8_t> buffer;
-  buffer.assign(grid.blocks().size(), 0);
-  auto& loaded = buffer;  // the buffer of the calling thread, shared by all threads
-  nodes.base.allocate(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    if (!ground.any_candidate(b)) {
-      return;
-    }
-    const BlockStep<Dim> step(grid, &ground, constraints, model, time, dt, nodes, b);
-    std::fill_n(nodes.base.of_block(b), nodes.base.nodes, typename mpm::SparseRecordsOf<BaseLoad, Dim>::Record{});
-    for (std::size_t k = 0; k < ground.candidates(b); ++k) {
-      auto& base = nodes.base.of_block(b)[k];
-      base[BaseLoad::load] = load_on_ground(step, NodeAt{b, k});
-      if (base[BaseLoad::load] > 0.0) {
-        loaded[b] = 1;
-      }
-    }
-  });
-  // Covered ground is also needed at nodes that a hovering mass does not reach, but only by adjacent loaded nodes.
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    const std::int32_t* about = grid.blocks_about_block(b);
-    if (!ground.any_candidate(b) || std::none_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
-          return other != KeyIndex::absent && loaded[static_cast<std::size_t>(other)] != 0;
-        })) {
-      return;
-    }
-    const BlockStep<Dim> step(grid, &ground, constraints, model, time, dt, nodes, b);
-    for (std::size_t k = 0; k < ground.candidates(b); ++k) {
-      nodes.base.of_block(b)[k][BaseLoad::covered] = covered_ground(step, NodeAt{b, k});
-    }
-  });
-}
-
-template <int Dim>
-void start_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, mpm::Nodes<Dim>& nodes) {
-  apply_contact_conditions(grid, ground, nodes);
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    if (nodes.contact.contains(b)) {
-      start_block(ground->block(b), b, nodes);
-    }
-  });
-}
-
-template <int Dim>
-bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) {
-  return parallel_any(grid.blocks().size(), [&](std::size_t b) {
-    for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
-      if (nodes.base(b, k)[BaseLoad::load] > 0.0 && !(nodes.base_states.at(b, k)[mpm::BaseState::area] > 0.0)) {
-        return true;
-      }
-    }
-    return false;
-  });
-}
-
-template <int Dim>
-ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
-                                 double dt, mpm::Nodes<Dim>& nodes, const BedOnGrid<Dim>* bed,
-                                 const StrengthLaw* strength) {
-  nodes.motion.resize(grid.blocks().size());
-  apply_contact_conditions(grid, ground, nodes);
-  std::optional<GivenStrengths> given;
-  if (strength != nullptr && !model.base_is_fixed) {
-    given = strengths_by(*strength, grid, ground, constraints, model, time, dt, nodes);
+void set_contact_offset(const mpm::BodySizes& sizes, double cell, mpm::Particles<Dim>& particles, std::size_t first) {
+  constexpr double within_lowest_layer = 2.0 * (1.0 + round_off);  // in half sizes of a particle
+  for (std::size_t p = first; p < particles.size(); ++p) {
+    const double half = sizes.half(static_cast<std::size_t>(particles.body(p))) * cell;
+    const double height = particles.height_above_ground(p);
+    particles.contact_offset(p) = height < within_lowest_layer * half ? height : half;
   }
-  using Work = ContactWork<Dim>;
-  return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
-    const BlockStep<Dim> step(grid, ground, constraints, model, time, dt, nodes, b);
-    thread_local BlockContact contact;  // persistent, to avoid allocation for each block
-    if (step.candidates > 0) {
-      start_block<Dim>(ground->block(b), b, nodes);
-    }
-    find_contact(step, grid.cell(), model, model.reads_mass || strength != nullptr, contact);
-    for (std::size_t k = 0, c = 0; k < block_nodes<Dim>; ++k) {
-      const NodeAt at{b, k};
-      nodes.motion(at).fill(0.0);
-      if (c < contact.node.size() && contact.node[c] == k) {
-        ++c;
-      } else if (has_mass(step, at)) {
-        store_motion(step, at, trial_of(step, at), work);
-      }
-    }
-    for (std::size_t c = 0; c < contact.node.size(); ++c) {
-      const NodeAt at{b, contact.node[c]};
-      const BasalNode& base = contact.base[c];
-      const double of_base = model.base_is_fixed ? std::numeric_limits<double>::infinity()
-                             : given             ? given->nodes.strength[given->first[b] + c]
-                                                 : base.strength(model.law.clamp, model.law.cap_pressure);
-      NodeState<Dim> state = trial_of(step, at);
-      const auto below = bed != nullptr ? bed->below(at, base.area, of_base, dt, state.mass) : BedBelowNode<Dim>{};
-      touch_ground(step, at, base, of_base, model.law.heat_fraction, below, state, work);
-      store_motion(step, at, state, work);
-    }
-  });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                               \
-  template void start_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*, mpm::Nodes<Dim>&);     \
-  template void press_on_ground<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                      \
-                                     const mpm::Constraints<Dim>&, const ContactModel<Dim>&, double, double,     \
-                                     mpm::Nodes<Dim>&);                                                          \
-  template bool loads_bare_ground<Dim>(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&);                     \
-  template ContactWork<Dim> resolve_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*,          \
-                                                 const mpm::Constraints<Dim>&, const ContactModel<Dim>&, double, \
-                                                 double, mpm::Nodes<Dim>&, const BedOnGrid<Dim>*, const StrengthLaw*);
+template <int Dim>
+void start_contact(const SlideOnGround<Dim>& slide) {
+  const ContactPasses<Dim> passes(slide, 0.0, 0.0);
+  passes.allocate_records();
+  if (passes.has_ground()) {
+    for (std::size_t b = 0; b < slide.grid.blocks().size(); ++b) {
+      for (std::size_t k = 0; slide.nodes.contact.contains(b) && k < slide.nodes.contact.nodes; ++k) {
+        slide.nodes.contact.of_block(b)[k] = {k < slide.ground->candidates(b) ? 1.0 : 0.0};
+      }
+    }
+    mark_band_and_slip<Dim>(passes, 0.0);
+  }
+}
+
+template <int Dim>
+ContactWork<Dim> ContactOnCpu<Dim>::resolve(const SlideOnGround<Dim>& slide, const ContactModel& model, double time,
+                                            double dt, const mpm::BaseStates<Dim>& columns,
+                                            const std::function<void()>& average_band, Bed<Dim>* bed,
+                                            const StrengthLaw* strength, double of_walls) {
+  const ContactPasses<Dim> passes(slide, time, dt);
+  passes.allocate_records();
+  ContactWork<Dim> work;
+  stage_.resolve(passes, model, columns, average_band, bed, strength, &of_walls, &work);
+  return work;
+}
+
+template <int Dim>
+double constrain_mapped_back(const SlideOnGround<Dim>& slide, double time, double dt) {
+  sum_patches(slide.grid, slide.nodes.velocity);
+  double work = 0;
+  ContactPasses<Dim>(slide, time, dt).add_nodes(MapBack<Dim>{slide.motion.gravity}, &work);
+  return work;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                         \
+  template void set_contact_offset<Dim>(const mpm::BodySizes&, double, mpm::Particles<Dim>&, std::size_t); \
+  template void start_contact<Dim>(const SlideOnGround<Dim>&);                                             \
+  template class ContactOnCpu<Dim>;                                                                        \
+  template double constrain_mapped_back<Dim>(const SlideOnGround<Dim>&, double, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

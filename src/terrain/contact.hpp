@@ -1,49 +1,58 @@
-// Contact with the ground at the nodes (Eqs. 15-17, 20, 25; Nairn 2013; Nairn et al. 2018), and nodal motion. The trial
-// momentum is corrected once: correcting both the old momentum and the force, as Eq. 15 reads, would count contact
-// twice.
+// Contact with the ground on the CPU (terrain/contact_stage.hpp).
 #pragma once
 
+#include <functional>
+
+#include "exec/cpu.hpp"
 #include "mpm/constraints.hpp"
-#include "mpm/nodes.hpp"
-#include "mpm/section_width.hpp"
-#include "terrain/bed_on_grid.hpp"
+#include "mpm/motion.hpp"
 #include "terrain/contact_stage.hpp"
-#include "terrain/contact_work.hpp"
-#include "terrain/strength_law.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
 
+// Particles, nodes and ground in contact.
 template <int Dim>
-struct ContactModel : ContactOptions {
-  BasalLaw law;
-  mpm::SectionWidth width;    // of a 2D section
-  bool reads_mass = true;     // the laws depend on P, T, S, n_e or the slip of the mass at nodes
-  bool band_columns = false;  // the basal state is that of nodes.base_states
+struct SlideOnGround {
+  const mpm::SparseGrid<Dim>& grid;
+  const GroundOnGrid<Dim>* ground;  // null if there is none
+  const mpm::Constraints<Dim>& constraints;
+  const mpm::MotionModel<Dim>& motion;
+  const ContactOptions& options;
+  mpm::Particles<Dim>& particles;
+  mpm::Nodes<Dim>& nodes;
 };
 
-// Fills nodes.base of the blocks with candidate nodes: load on the ground and covered area. Requires the clearance in
-// nodes.near_ground of this step.
+// Sets particles.contact_offset [m], the height at which a particle touches the ground, for particles at memory index
+// `first` and above. The lowest particles of a body that rests on the ground at the start touch at their initial
+// height. Other particles touch with the lower side of their box. sizes: half sizes of particles, in cells.
 template <int Dim>
-void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
-                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time, double dt,
-                     mpm::Nodes<Dim>& nodes);
+void set_contact_offset(const mpm::BodySizes& sizes, double cell, mpm::Particles<Dim>& particles,
+                        std::size_t first = 0);
 
-// True if a loaded node has no band column in reach (nodes.base_states).
+// Initializes nodes.contact, and marks the particles in the band, before the first motion and without mechanics.
 template <int Dim>
-bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes);
+void start_contact(const SlideOnGround<Dim>& slide);
 
-// From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null; with
-// ground, call press_on_ground before. Requires the clearance of this step, and if the mass is read, also
-// nodes.averages, nodes.state and nodes.near_ground, except at nodes with band columns. bed: after distribute(); may be
-// null. strength: replaces the strengths of the case's laws unless it is null or the base is fixed.
 template <int Dim>
-ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
-                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, double time,
-                                 double dt, mpm::Nodes<Dim>& nodes, const BedOnGrid<Dim>* bed = nullptr,
-                                 const StrengthLaw* strength = nullptr);
+class ContactOnCpu {
+ public:
+  // As ContactStage::resolve, in a step of dt from `time` [s]. Requires nodes.momentum, and if the mass is read, also
+  // nodes.averages and nodes.state, except at nodes with band columns. Fills nodes.near_ground and nodes.base of
+  // candidate nodes, nodes.contact and nodes.motion.
+  ContactWork<Dim> resolve(const SlideOnGround<Dim>& slide, const ContactModel& model, double time, double dt,
+                           const mpm::BaseStates<Dim>& columns = {}, const std::function<void()>& average_band = {},
+                           Bed<Dim>* bed = nullptr, const StrengthLaw* strength = nullptr, double of_walls = 0.0);
 
-// Initializes nodes.contact before the first motion, without contact. `ground` may be null.
+ private:
+  exec::Cpu cpu_;
+  ContactStage<exec::Cpu, Dim> stage_{cpu_};
+};
+
+// Sums the momenta that particles mapped back (MUSL), applies constraints again, and converts them to nodal velocities
+// (MapBack). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work of internal forces on the nodes, minus the stress
+// work at the mapped-back velocities.
 template <int Dim>
-void start_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, mpm::Nodes<Dim>& nodes);
+double constrain_mapped_back(const SlideOnGround<Dim>& slide, double time, double dt);
 
 }  // namespace thawslide::terrain

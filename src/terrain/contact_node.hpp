@@ -1,6 +1,6 @@
-// Contact of one node with the ground (Eqs. 15-17, 20; Nairn 2013; Nairn et al. 2018), from trial momentum to motion.
-// For host and device. Walls: constraints on the node's momentum, with any(), true if a constraint may act, and
-// apply(mass, momentum), true if a rigid frame acted.
+// Formulas of contact of one node with the ground (Eqs. 15-17, 20; Nairn 2013; Nairn et al. 2018), and sums for the
+// budgets of energy and momentum. For host and device. Walls: constraints on the node's momentum, with any(), true if a
+// constraint may act, and apply(mass, momentum), true if a rigid frame acted.
 #pragma once
 
 #include <cmath>
@@ -14,9 +14,44 @@
 #include "mpm/vectors_in_records.hpp"
 #include "physics/basal/contact_node.hpp"
 #include "physics/contact.hpp"
-#include "terrain/contact_work.hpp"
 
 namespace thawslide::terrain {
+
+// Sums over contact and constraints in one step. Energies [J], forces [N], areas [m2].
+template <int Dim>
+struct ContactWork {
+  double friction_work = 0;                                 // dissipated by sliding
+  double loss = 0;                                          // dissipated by impact on ground and walls, and by sticking
+  double frame_work = 0;                                    // done by rigid frames on the sliding mass
+  double converted = 0;                                     // friction work not converted to heat
+  double damping = 0;                                       // dissipated by mass damping
+  double node_kinetic = 0;                                  // sum m |a dt|^2 / 2 over nodes
+  double area = 0;                                          // in contact
+  double friction_area = 0;                                 // sum mu_e A
+  double shear_force = 0;                                   // of the ground on the sliding mass, in any direction
+  double bed_work = 0;                                      // lost to entrained bed material
+  Vector<double, Dim> force = Vector<double, Dim>::Zero();  // on the ground
+  // On the sliding mass, from walls, frames and mass damping [N s].
+  Vector<double, Dim> constraint_impulse = Vector<double, Dim>::Zero();
+  Vector<double, Dim> bed_impulse = Vector<double, Dim>::Zero();  // on entrained bed material [N s]
+
+  THAWSLIDE_HD ContactWork& operator+=(const ContactWork& part) {
+    friction_work += part.friction_work;
+    loss += part.loss;
+    frame_work += part.frame_work;
+    converted += part.converted;
+    damping += part.damping;
+    node_kinetic += part.node_kinetic;
+    area += part.area;
+    friction_area += part.friction_area;
+    shear_force += part.shear_force;
+    force += part.force;
+    constraint_impulse += part.constraint_impulse;
+    bed_work += part.bed_work;
+    bed_impulse += part.bed_impulse;
+    return *this;
+  }
+};
 
 // Smallest contact area, as a fraction of a cell's face: keeps N = p.n / (A dt) finite without ground nearby.
 inline constexpr double smallest_area = 1e-6;
@@ -52,19 +87,6 @@ THAWSLIDE_HD NodeState<Dim> trial_state(const Walls& walls, double dt, double da
   state.in_frame = false;
   constrain(walls, state);
   return state;
-}
-
-// Momentum of a node into the ground in this step, minus the part that closes the clearance [m].
-inline THAWSLIDE_HD double approach(bool distance_check, double clearance, double dt, double mass,
-                                    double inward_momentum) {
-  const double left = max(0.0, clearance);
-  return max(0.0, distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
-}
-
-// Clearance along the normal [m] from that of a record, which is along the vertical.
-template <int Dim>
-THAWSLIDE_HD double clearance_along_normal(const Vector<double, Dim>& normal, double clearance) {
-  return -normal[Dim - 1] * clearance;
 }
 
 // Covered fraction of the ground at a node of layer 0: the largest filled fraction of the node's space and of the
@@ -148,134 +170,6 @@ THAWSLIDE_HD void set_columns_state(const Record& state, bool pore_pressure, phy
   node.solid_fraction = state[BaseState::solid_fraction] / area;
   node.temperature = state[BaseState::temperature] / area;
   node.slip = state[BaseState::slip] / area;
-}
-
-// Transfer from a contact node to the bed material in a step.
-struct EntrainmentImpulse {
-  double entrained = 0;    // [kg]
-  double impulse = 0;      // along the slip [N s]
-  double of_friction = 0;  // part of it already removed by friction [N s]
-};
-
-// Used when there is no bed.
-struct NoBed {
-  template <int Dim>
-  THAWSLIDE_HD EntrainmentImpulse entrain(const physics::ContactImpulse& /*impulse*/, double /*normal_pressure*/,
-                                          const Vector<double, Dim>& /*along*/, double /*tangential_size*/) const {
-    return {};
-  }
-  THAWSLIDE_HD void record(double /*work*/, double /*normal_pressure*/) const {}
-};
-
-// Ground and strength at a contact node. In a bend of the ground, the normal pressures on its parts partly cancel:
-// their resultant, the normal impulse, is smaller by `bend` than the load on the ground. Friction, cohesion and
-// entrainment use the load (GroundAtNode::bend; a V-shaped channel of half angle a has 1/sin(a)). The paper has one
-// contact normal per node and flat ground.
-template <int Dim>
-struct ContactConditions {
-  const Vector<double, Dim>& normal;  // into the ground
-  double load;                        // normal impulse times bend [kg m/s]
-  double bend;
-  double area, strength, friction;  // [m2], of the base [Pa], coefficient
-};
-
-// Applies the contact impulse of one node and adds its work. Updates state.momentum from trial to final. left: record
-// of Contact.
-template <int Dim, class Walls, class FromBed, class Record>
-THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>& conditions, double heat_fraction,
-                                double dt, const FromBed& bed, NodeState<Dim>& state, ContactWork<Dim>& work,
-                                Record& left) {
-  using mpm::Contact;
-  const Vector<double, Dim>& normal = conditions.normal;
-  const Vector<double, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
-  const double tangential_size = tangential.norm();
-  auto impulse = physics::contact_impulse(conditions.load / conditions.bend, tangential_size, conditions.area, dt,
-                                          conditions.strength);
-  Vector<double, Dim> along = Vector<double, Dim>::Zero();
-  if (tangential_size > 0.0) {
-    along = tangential / tangential_size;
-  }
-  const EntrainmentImpulse entrain =
-      bed.template entrain<Dim>(impulse, conditions.load / (conditions.area * dt), along, tangential_size);
-  impulse.tangential -= entrain.of_friction;
-  const Vector<double, Dim> total = -impulse.normal * normal - impulse.tangential * along;
-  const Vector<double, Dim> to_bed = entrain.impulse * along;
-  state.momentum += total - to_bed;
-  constrain(walls, state);  // walls and frames take precedence over the ground
-  const Vector<double, Dim> middle = (state.old_momentum + state.momentum) / (2.0 * state.mass);
-  const double slip_speed = max(0.0, middle.dot(along));
-  const double friction_work = impulse.slides ? impulse.tangential * slip_speed : 0.0;
-  if (entrain.entrained > 0.0) {
-    bed.record(to_bed.dot(middle), conditions.load / dt / conditions.area);
-    work.bed_work += to_bed.dot(middle);
-    work.bed_impulse += to_bed;
-  }
-  work.friction_work += friction_work;
-  work.converted += (1.0 - heat_fraction) * friction_work;
-  work.loss += -total.dot(middle) - friction_work;
-  work.force -= total / dt;
-  work.area += conditions.area;
-  work.friction_area += conditions.friction * conditions.area;
-  work.shear_force += impulse.tangential / dt;
-  left[Contact::touching] = 1.0;
-  left[Contact::slip_speed] = impulse.slides ? slip_speed : 0.0;
-  left[Contact::friction_heat] = heat_fraction * friction_work / dt;
-  left[Contact::normal_force] = conditions.load / dt;
-  left[Contact::area] = conditions.area;
-}
-
-// Stores the motion of a node, and sums the energy dissipated by constraints, damping and FLIP. constrained: walls or
-// frames may have acted. motion: record of MotionLayout.
-template <int Dim, class Record>
-THAWSLIDE_HD void finish_node(const NodeState<Dim>& state, bool constrained, double damping, double dt,
-                              ContactWork<Dim>& work, Record& motion) {
-  using mpm::MotionLayout;
-  const double inverse_mass = 1.0 / state.mass, inverse_dt = 1.0 / dt;
-  const Vector<double, Dim> change = state.momentum - state.old_momentum;
-  const Vector<double, Dim> middle = 0.5 * inverse_mass * (state.old_momentum + state.momentum);
-  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * (inverse_mass * inverse_dt));
-  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
-  work.node_kinetic += 0.5 * change.squaredNorm() * inverse_mass;
-  if (damping > 0.0) {
-    work.constraint_impulse -= damping * dt * state.old_momentum;
-    work.damping += damping * dt * state.old_momentum.dot(middle);
-  }
-  if (constrained) {
-    const double constraint_work = state.constraint_impulse.dot(middle);
-    work.constraint_impulse += state.constraint_impulse;
-    work.frame_work += state.in_frame ? constraint_work : 0.0;
-    work.loss -= state.in_frame ? 0.0 : constraint_work;
-  }
-}
-
-// Ground below a node whose velocity is mapped back; only used if touching.
-template <int Dim>
-struct GroundOfMappedBack {
-  bool touching, distance_check;
-  const Vector<double, Dim>* normal;
-  double clearance;
-};
-
-// Velocity of a node from the momentum that particles map back (MUSL), in its record of Velocity, with the same
-// conditions as in the step. Returns the work of internal forces [J] at the mid-step velocity minus that at the
-// mapped-back velocity.
-template <int Dim, class Walls, class MomentumRecord, class MotionRecord, class VelocityRecord>
-THAWSLIDE_HD double map_back(const Walls& walls, const GroundOfMappedBack<Dim>& ground,
-                             const Vector<double, Dim>& gravity, double dt, const MomentumRecord& record,
-                             const MotionRecord& motion, VelocityRecord& mapped) {
-  using Layout = mpm::MomentumLayout<Dim>;
-  const double mass = record[Layout::mass];
-  Vector<double, Dim> momentum = mpm::vector_at<Dim>(mapped, 0);
-  if (ground.touching) {
-    const Vector<double, Dim>& normal = *ground.normal;
-    momentum -= approach(ground.distance_check, ground.clearance, dt, mass, momentum.dot(normal)) * normal;
-  }
-  walls.apply(mass, momentum);
-  const Vector<double, Dim> velocity = momentum * (1.0 / mass);
-  mpm::set_vector<Dim>(mapped, 0, velocity);
-  const Vector<double, Dim> internal_force = mpm::vector_at<Dim>(record, Layout::force) - mass * gravity;
-  const auto middle = mpm::vector_at<Dim>(motion, mpm::MotionLayout<Dim>::middle_velocity);
-  return dt * internal_force.dot(middle - velocity);
 }
 
 }  // namespace thawslide::terrain

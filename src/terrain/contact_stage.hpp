@@ -1,143 +1,165 @@
-// Contact at one node of a step: load, input of the basal laws, resolution, and velocity mapped back. For host and
-// device. Step: nodes, their walls and ground, and parameters of a step (terrain/block_step.hpp,
-// device/node_kernels.hpp). It provides space(node), of a node above the ground [m3], and find_above(node, step,
-// found), the node `step` layers above, or false if there is no such block.
+// Contact with the ground on an executor (Eqs. 15-17, 20, 25; Nairn 2013; Nairn et al. 2018), written once for the CPU
+// and devices as a sequence of passes. Passes of the CPU (terrain/contact.cpp) and of devices
+// (device/contact_passes.hpp) provide, in a step:
+//   has_ground(), candidate_count(), time(), dt()
+//   near_ground_to_grid(with_state)  clearance of candidate nodes, and, if required, the state of the mass above them
+//   for_candidates(kernel)           calls kernel(step, node, candidate) for the candidate nodes
+//   add_nodes(kernel, to)            calls kernel(step, node, candidate, contact, motion) for all nodes, and stores the
+//                                    total of the last two. Sums of nodes that the kernel touches() are added after
+//                                    those of the others in a block, `contact` before `motion`.
+//   visit_particles(kernel)          calls a kernel that neither reads nor adds to nodes for all particles
+//   linear_near_ground(kernel)       calls a kernel for the particles near the ground
 #pragma once
 
-#include "terrain/basal_law.hpp"
-#include "terrain/contact_node.hpp"
-#include "terrain/ground_at_node.hpp"
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "terrain/bed_stage.hpp"
+#include "terrain/contact_kernels.hpp"
+#include "terrain/near_ground_kernels.hpp"
 
 namespace thawslide::terrain {
 
-// Options of contact at a node.
-struct ContactOptions {
-  bool base_is_fixed = false;   // no slip, during gravity settling
-  bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
-  bool distance_check = false;  // contact acts only after a node has closed its clearance
-  double mass_damping = 0;      // [1/s]
+struct ContactModel : ContactOptions {
+  BasalLaw law;
+  bool reads_mass = true;     // the laws depend on P, T, S, n_e or the slip of the mass at nodes
+  bool band_columns = false;  // the basal state is that of band columns
 };
 
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool has_mass(const Step& step, const Node& node) {
-  return step.nodes.template read<mpm::Momentum>(node)[mpm::MomentumLayout<Step::dim>::mass] > 0.0;
-}
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE NodeState<Step::dim> trial_of(const Step& step, const Node& node) {
-  return trial_state<Step::dim>(step.walls(node), step.dt, step.options.mass_damping,
-                                step.nodes.template read<mpm::Momentum>(node));
-}
-// Clearance of a candidate node along the normal of the ground [m].
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double clearance_of(const Step& step, const Node& node) {
-  return clearance_along_normal(step.ground(node).normal,
-                                step.nodes.template read<mpm::NearGround>(node)[mpm::NearGround::clearance]);
+// The force of the walls of a section along x [N], from that on the ground, of which they are a part.
+template <int Dim>
+struct SubtractForce {
+  const double* of_walls;
+  ContactWork<Dim>* contact;
+
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { contact->force[0] -= *of_walls; }
+};
+
+// Marks the particles in a cell with a candidate corner as band particles, and adds the slip of contact nodes.
+template <int Dim, class Passes>
+void mark_band_and_slip(Passes& passes, double dt) {
+  passes.visit_particles(LeaveBand<Dim>{});
+  passes.linear_near_ground(MarkBand<Dim>{dt});
 }
 
-// Load of a candidate node on the ground [kg m/s].
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double load_on_ground(const Step& step, const Node& node) {
-  if (!has_mass(step, node)) {
-    return 0.0;
+template <class Executor, int Dim>
+class ContactStage {
+ public:
+  explicit ContactStage(Executor& executor) : executor_(executor) {}
+
+  // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. columns: basal state of band
+  // columns. average_band(): computes the averages of the band, if nodes out of reach of band columns need them.
+  // Otherwise, these have been computed if the laws depend on the mass. bed: the same in all steps, or null. strength:
+  // replaces the strengths of the case's laws unless it is null or the base is fixed. of_walls: force of the walls of a
+  // section along x [N]; null if there are none. work: in memory of the executor.
+  template <class Passes, class AverageBand>
+  void resolve(Passes& passes, const ContactModel& model, const mpm::BaseStates<Dim>& columns,
+               const AverageBand& average_band, Bed<Dim>* bed, const StrengthLaw* strength, const double* of_walls,
+               ContactWork<Dim>* work) {
+    const double* strengths = nullptr;
+    if (passes.has_ground()) {
+      const bool reads_mass = model.reads_mass || strength != nullptr;
+      press_on_ground(passes, columns, reads_mass, average_band);
+      evaluate_laws(passes, model, columns, reads_mass);
+      if (strength != nullptr && !model.base_is_fixed) {
+        strengths = strengths_by(*strength, passes, model.law);
+      }
+    }
+    if (bed != nullptr) {
+      if (!bed_) {
+        bed_.emplace(executor_, *bed);
+      }
+      bed_->distribute(passes);
+    }
+    passes.add_nodes(
+        ResolveContact<Dim>{bases_.data(), strengths, model.law.clamp, model.law.cap_pressure, model.law.heat_fraction,
+                            bed != nullptr ? bed_->below_nodes() : BedBelowNodes<Dim>{}},
+        work);
+    if (of_walls != nullptr) {
+      executor_.for_each(1, SubtractForce<Dim>{of_walls, work});
+    }
+    if (bed != nullptr) {
+      bed_->collect(passes.dt());
+    }
+    if (passes.has_ground()) {
+      mark_band_and_slip<Dim>(passes, passes.dt());
+    }
   }
-  const auto& ground = step.ground(node);
-  const auto state = trial_of(step, node);
-  return ground.bend * approach(step.options.distance_check, clearance_of(step, node), step.dt, state.mass,
-                                state.momentum.dot(ground.normal));
-}
 
-// Ground area that the sliding mass covers at a node [m2].
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double covered_ground(const Step& step, const Node& node) {
-  const double area = step.ground(node).area;
-  return !(area > 0.0)
-             ? 0.0
-             : area * covered_fraction(step.space(node), [&](int above) {
-                 Node other = node;
-                 return step.find_above(node, above, other)
-                            ? step.nodes.template read<mpm::Momentum>(other)[mpm::MomentumLayout<Step::dim>::volume]
-                            : 0.0;
-               });
-}
-
-// Gathers the input of the basal laws at a node; its area is 0 unless it is loaded. smallest_area [m2]. gravity [m/s2].
-// reads_mass: off: no law depends on the state of the sliding mass. columns: record of BaseState; null without band
-// columns.
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void gather_basal_node(const Step& step, const Node& node, double smallest_area,
-                                                            double gravity, bool reads_mass, const double* columns,
-                                                            BasalNode& base) {
-  using mpm::BaseLoad;
-  constexpr int Dim = Step::dim;
-  base.area = 0.0;
-  if (!has_mass(step, node) || !(step.nodes.template read<mpm::BaseLoad>(node)[BaseLoad::load] > 0.0)) {
-    return;
+ private:
+  // Only nodes out of reach of band columns need the state of particles, and only if a law reads it. A device does not
+  // wait to find out whether there are any.
+  template <class Passes, class AverageBand>
+  void press_on_ground(Passes& passes, const mpm::BaseStates<Dim>& columns, bool reads_mass,
+                       const AverageBand& average_band) {
+    const bool has_columns = columns.records != nullptr;
+    passes.near_ground_to_grid(reads_mass && !has_columns);
+    passes.for_candidates(PressOnGround{});
+    if constexpr (!Passes::is_queued) {
+      if (has_columns && reads_mass && passes.any_candidate(LoadsBareGround<Dim>{columns})) {
+        average_band();
+        passes.near_ground_to_grid(true);
+      }
+    }
   }
-  const double none[BaseLoad::size<Dim>] = {};
-  const double pressure = pressure_of_column(step.dt, smallest_area, [&](int above) -> const double* {
-    Node other = node;
-    return step.find_above(node, above, other) ? step.nodes.template read<mpm::BaseLoad>(other) : none;
-  });
-  // the basal area is divided among nodes in proportion to their loads
-  base.area = step.nodes.template read<mpm::BaseLoad>(node)[BaseLoad::load] / (pressure * step.dt);
-  base.substrate = step.ground(node).substrate;
-  const auto& normal = step.ground(node).normal;
-  const bool on_columns = columns != nullptr && columns[mpm::BaseState::area] > 0.0;
-  base.state = on_columns || !reads_mass
-                   ? loaded_node<Dim>(pressure, normal, trial_of(step, node))
-                   : contact_node_of<Dim>(step.nodes.template read<mpm::NodalState>(node),
-                                          step.nodes.template read<mpm::Averages>(node)[mpm::Averages::volume],
-                                          step.nodes.template read<mpm::NearGround>(node), pressure,
-                                          step.options.pore_pressure, normal, trial_of(step, node));
-  if (columns != nullptr) {
-    set_columns_state(columns, step.options.pore_pressure, base.state);
-  }
-  base.state.time = step.time;
-  base.state.unit_weight = unit_weight_of<Dim>(step.nodes.template read<mpm::Momentum>(node), gravity);
-}
 
-// Applies contact to a loaded node. strength: of the base [Pa].
-template <class Step, class Node, class FromBed>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void touch_ground(const Step& step, const Node& node, const BasalNode& base,
-                                                       double strength, double heat_fraction, const FromBed& bed,
-                                                       NodeState<Step::dim>& state, ContactWork<Step::dim>& work) {
-  const auto& ground = step.ground(node);
-  const ContactConditions<Step::dim> conditions{
-      ground.normal, step.nodes.template read<mpm::BaseLoad>(node)[mpm::BaseLoad::load],
-      ground.bend,   base.area,
-      strength,      base.friction};
-  auto* contact = step.nodes.template write<mpm::Contact>(node);
-  apply_contact(step.walls(node), conditions, heat_fraction, step.dt, bed, state, work, contact);
-}
-
-// Stores the motion of a node with its final momentum. The force on a node of a held body counts as one of the ground,
-// which holds it.
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void store_motion(const Step& step, const Node& node,
-                                                       const NodeState<Step::dim>& state,
-                                                       ContactWork<Step::dim>& work) {
-  const auto walls = step.walls(node);
-  auto* motion = step.nodes.template write<mpm::Motion>(node);
-  finish_node<Step::dim>(state, walls.any(), step.options.mass_damping, step.dt, work, motion);
-  if (walls.is_held()) {
-    work.constraint_impulse -= state.constraint_impulse;
-    work.force -= state.constraint_impulse / step.dt;
+  template <class Passes>
+  void evaluate_laws(Passes& passes, const ContactModel& model, const mpm::BaseStates<Dim>& columns, bool reads_mass) {
+    const double face = Dim == 2 ? passes.cell() : passes.cell() * passes.cell();
+    bases_.resize(passes.candidate_count());
+    passes.for_candidates(GatherBasalNode<Dim>{static_cast<double>(smallest_area) * face, model.law.gravity,
+                                               reads_mass || Passes::is_queued, columns, bases_.data()});
+    evaluate_basal_law(executor_, model.law, bases_.data(), bases_.size());
   }
-}
 
-// Maps back the velocity of a node; returns the work as map_back does. touching: in contact with the ground.
-template <class Step, class Node>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE double map_back_node(const Step& step, const Node& node, bool touching,
-                                                          const Vector<double, Step::dim>& gravity) {
-  if (!has_mass(step, node)) {
-    return 0.0;
+  // Strengths by candidate node [Pa], by a law of the caller.
+  template <class Passes>
+  [[nodiscard]] const double* strengths_by(const StrengthLaw& law, Passes& passes, const BasalLaw& of_case) {
+    positions_.resize(bases_.size() * Dim);
+    passes.for_candidates(LocateOnGround<Dim>{positions_.data()});
+    const std::vector<double> positions = positions_.get();
+    const std::vector<BasalNode> bases = bases_.get();
+    LoadedNodes nodes;
+    nodes.time = passes.time();
+    nodes.dt = passes.dt();
+    for (std::size_t k = 0; k < bases.size(); ++k) {
+      const physics::basal::ContactNode& state = bases[k].state;
+      if (!(bases[k].area > 0.0)) {
+        continue;
+      }
+      nodes.position.insert(nodes.position.end(), &positions[k * Dim], &positions[k * Dim] + Dim);
+      nodes.area.push_back(bases[k].area);
+      nodes.substrate.push_back(bases[k].substrate);
+      nodes.normal_pressure.push_back(state.normal_pressure);
+      nodes.pore_pressure.push_back(state.pore_pressure);
+      nodes.temperature.push_back(state.temperature);
+      nodes.saturation.push_back(state.saturation);
+      nodes.solid_fraction.push_back(state.solid_fraction);
+      nodes.slip.push_back(state.slip);
+      nodes.speed.push_back(state.speed);
+      nodes.unit_weight.push_back(state.unit_weight);
+      nodes.strength.push_back(bases[k].strength(of_case.clamp, of_case.cap_pressure));
+    }
+    const std::size_t count = nodes.strength.size();
+    law(nodes);
+    if (nodes.strength.size() != count) {
+      throw std::logic_error("a basal law returned another number of strengths");
+    }
+    std::vector<double> strengths(bases.size(), 0.0);
+    for (std::size_t k = 0, loaded = 0; k < bases.size(); ++k) {
+      if (bases[k].area > 0.0) {
+        strengths[k] = nodes.strength[loaded++];
+      }
+    }
+    strengths_.set(strengths);
+    return strengths_.data();
   }
-  const GroundOfMappedBack<Step::dim> below{touching, step.options.distance_check,
-                                            touching ? &step.ground(node).normal : nullptr,
-                                            touching ? clearance_of(step, node) : 0.0};
-  auto* velocity = step.nodes.template write<mpm::Velocity>(node);
-  return map_back<Step::dim>(step.walls(node), below, gravity, step.dt, step.nodes.template read<mpm::Momentum>(node),
-                             step.nodes.template read<mpm::Motion>(node), velocity);
-}
+
+  Executor& executor_;
+  exec::Array<BasalNode, Executor> bases_{executor_};  // by candidate
+  exec::Array<double, Executor> positions_{executor_}, strengths_{executor_};
+  std::optional<BedStage<Executor, Dim>> bed_;  // none before the bed is in reach
+};
 
 }  // namespace thawslide::terrain

@@ -17,7 +17,6 @@
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
 #include "terrain/column_heights.hpp"
-#include "terrain/ground_at_node.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::terrain {

@@ -71,8 +71,18 @@ class GroundOnGrid {
     blocks_.resize(keys_.size());
     candidates_.resize(keys_.size());
     partly_unknown_.resize(keys_.size());
-    parallel_for(keys_.size() - known_before,
-                 [&](std::size_t k) { evaluate(surface, substrates, grid.cell(), known_before + k); });
+    parallel_for(keys_.size() - known_before, [&](std::size_t from_known) {
+      const std::size_t k = known_before + from_known;
+      query_ground<Dim>(surface, substrates, keys_[k], grid.cell(), blocks_[k].data());
+      const int lowest = first_node_of<Dim>(keys_[k])[Dim - 1];
+      const int layers = std::clamp(1 - lowest, 0, T::edge);
+      candidates_[k] = static_cast<std::uint8_t>(layers * T::rows);
+      partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], grid.cell()) ? 0 : 1;
+    });
+    first_candidate_.assign(1, 0);
+    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+      first_candidate_.push_back(first_candidate_[b] + candidates(b));
+    }
     lowest_layer_.resize(grid.tiles().size());
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
       lowest_layer_[t] = T::index(grid.tiles()[t].key)[Dim - 1] * T::edge - 1;
@@ -97,7 +107,9 @@ class GroundOnGrid {
   [[nodiscard]] std::size_t candidates(std::size_t b) const {
     return candidates_[static_cast<std::size_t>(number_[b])];
   }
-  [[nodiscard]] bool any_candidate(std::size_t b) const { return candidates(b) != 0; }
+  // Number of the first one of a block among all candidate nodes, and their number.
+  [[nodiscard]] std::size_t first_candidate(std::size_t b) const { return first_candidate_[b]; }
+  [[nodiscard]] std::size_t candidate_count() const { return first_candidate_.back(); }
   // True if the ground below active block b, or within one cell around it, has no-data parts.
   [[nodiscard]] bool partly_unknown(std::size_t b) const {
     return partly_unknown_[static_cast<std::size_t>(number_[b])] != 0;
@@ -134,20 +146,13 @@ class GroundOnGrid {
     partly_unknown_ = std::move(partly_unknown);
   }
 
-  void evaluate(const FollowingGround<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
-    query_ground<Dim>(surface, substrates, keys_[k], cell, blocks_[k].data());
-    const int lowest = first_node_of<Dim>(keys_[k])[Dim - 1];
-    const int layers = std::clamp(1 - lowest, 0, T::edge);
-    candidates_[k] = static_cast<std::uint8_t>(layers * T::rows);
-    partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
-  }
-
   KeyIndex index_;  // block key -> index in keys_, blocks_ and the marks
   std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
   std::vector<std::uint8_t> candidates_, partly_unknown_;
-  std::vector<std::int32_t> number_;  // active block -> index in blocks_
-  std::vector<int> lowest_layer_;     // of nodes in reach of the particles, by tile
+  std::vector<std::int32_t> number_;             // active block -> index in blocks_
+  std::vector<std::size_t> first_candidate_{0};  // by active block, and the number of all candidates
+  std::vector<int> lowest_layer_;                // of nodes in reach of the particles, by tile
 };
 
 }  // namespace thawslide::terrain

@@ -1,16 +1,24 @@
 #include "terrain/height_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "base/raster.hpp"
 #include "terrain/convex_polygon.hpp"
-#include "terrain/triangle_rule.hpp"
 
 namespace thawslide::terrain {
 
 namespace {
+
+// Six-point rule on triangles, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II.
+// Each point has two equal barycentric coordinates.
+struct RulePoint {
+  double weight, twice;
+};
+constexpr std::array<RulePoint, 2> triangle_rule{RulePoint{0.22338158967801146570, 0.44594849091596488632},
+                                                 RulePoint{0.10995174365532186764, 0.09157621350977074346}};
 
 // In cells: tolerance for positions at a point.
 constexpr double round_off = 1e-9;

@@ -26,14 +26,14 @@ REGISTERS_OF_STEP = {
     "AddPressureLoad": (38, 48),  # 34, 42
     "AddSeepingWater": (56, 62),  # 50, 56
     "ApplyFiltered": (80, 108),  # 72, 98
-    "DeformMaterial LinearElastic": (88, 132),  # 80, 120
-    "DeformMaterial MohrCoulomb<false>": (142, 168),  # 128, 152
-    "DeformMaterial MohrCoulomb<true>": (158, 180),  # 142, 162
     "HeatFlows": (88, 104),  # 80, 93
     "MarkBand": (36, 42),  # 32, 38
     "MarkEscaped": (34, 36),  # 30, 32
     "Move": (80, 106),  # 72, 96
     "MoveAffine": (104, 222),  # 94, 200
+    "OfMaterial LinearElastic": (88, 132),  # 80, 120
+    "OfMaterial MohrCoulomb<false>": (142, 168),  # 128, 152
+    "OfMaterial MohrCoulomb<true>": (158, 180),  # 142, 162
     "RedistributeUnreachedHeat": (36, 44),  # 32, 40
     "RescaleBand": (84, 84),  # 76, 76
     "SecantCapacity": (82, 86),  # 74, 78

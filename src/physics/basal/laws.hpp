@@ -46,24 +46,13 @@ struct OfType {
   using type = Law;
 };
 
-namespace detail {
-
-template <class Laws>
-struct Each;
-template <class... Laws>
-struct Each<std::variant<Laws...>> {
-  template <class Function>
-  static void call(const Function& function) {
-    (function(OfType<Laws>{}), ...);
-  }
-};
-
-}  // namespace detail
-
 // Calls function(OfType<Law>) for each law of one of the lists above.
 template <class Laws, class Function>
 void for_each_law(const Function& function) {
-  detail::Each<Laws>::call(function);
+  [&]<std::size_t... K>(std::index_sequence<K...> /*numbers*/) {
+    (function(OfType<std::variant_alternative_t<K, Laws>>{}), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Laws>>{});
 }
 
 }  // namespace thawslide::physics::basal

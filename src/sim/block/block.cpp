@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "exec/cpu.hpp"
 #include "physics/contact.hpp"
 #include "sim/block/block_column.hpp"
 #include "sim/direction.hpp"
@@ -285,7 +286,7 @@ class Block {
     for (std::size_t number = 0; number < fractions.size(); ++number) {
       if (fractions[number] > 0.0) {
         basal_.substrate = static_cast<int>(number);
-        evaluate_basal_law(law, std::span(&basal_, 1));
+        evaluate_basal_law(cpu_, law, &basal_, 1);
         strength_ += fractions[number] * basal_.strength(law.clamp, law.cap_pressure);
         friction_ += fractions[number] * basal_.friction;
       }
@@ -320,6 +321,7 @@ class Block {
   Vector<double, 2> up_, rear_;  // against gravity; rear end at t = 0, on the ground [m]
   double top_ = -HUGE_VAL;       // height of the highest particle at t = 0, along up_ [m]
   AnyColumn column_;
+  exec::Cpu cpu_;
   terrain::BasalNode basal_;
   double base_area_ = 0;                // ground below the slices, including the valley factor [m2 per m of width]
   double strength_ = 0, friction_ = 0;  // current basal strength [Pa]; mu_e

@@ -6,7 +6,7 @@
 
 #include "band/new_particles.hpp"
 #include "band/stages_on_cpu.hpp"
-#include "terrain/near_ground_kernel.hpp"
+#include "terrain/near_ground_kernels.hpp"
 
 namespace thawslide::sim {
 

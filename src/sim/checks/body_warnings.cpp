@@ -126,8 +126,8 @@ std::string strength_warning(const config::Case& parameters, const BodyFigures& 
     return "";
   }
   const physics::basal::ContactNode frozen{.normal_pressure = load, .solid_fraction = 1.0};
-  const double base =
-      std::visit([&](const auto& law) { return law.coefficient(frozen); }, config::friction_of(parameters.basal));
+  const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
+                                 config::law_of<physics::basal::FrictionLaw>(parameters.basal));
   const double strain = std::max(material.softening_strain,
                                  physics::softening_strain_of_slip(material.softening_slip, parameters.grid.cell));
   const bool is_unbroken = strain >= strain_of_unbroken;

@@ -12,7 +12,6 @@
 #include "sim/setup/release_body.hpp"
 #include "sim/setup/substrates.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/profile_surface.hpp"
 
 namespace thawslide::sim {
 
@@ -128,9 +127,12 @@ mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vec
 terrain::BasalLaw make_basal_law(const config::Case& parameters) {
   const config::Basal& basal = parameters.basal;
   terrain::BasalLaw law;
-  law.grounds = {{config::friction_of(basal), config::cohesion_of(basal)}};
+  const auto laws_of = [](const config::GroundStrength& ground) -> terrain::GroundLaw {
+    return {config::law_of<physics::basal::FrictionLaw>(ground), config::law_of<physics::basal::CohesionLaw>(ground)};
+  };
+  law.grounds = {laws_of(basal)};
   for (const auto& [name, substrate] : parameters.substrates) {
-    law.grounds.push_back({config::friction_of(substrate), config::cohesion_of(substrate)});
+    law.grounds.push_back(laws_of(substrate));
   }
   law.clamp = basal.clamp;
   law.cap_pressure = basal.cap_pressure;
@@ -294,7 +296,6 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
   model.constraints.first_held_layer = model.between_bodies.first_held_layer();
   model.splits_stretched = parameters.mechanics.enabled && parameters.mechanics.split_stretched;
   model.contact.law = make_basal_law(parameters);
-  model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.reads_mass = model.contact.pore_pressure || model.contact.law.depends_on_mass();
   model.contact.mass_damping = parameters.mechanics.mass_damping;

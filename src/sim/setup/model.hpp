@@ -25,7 +25,7 @@ struct Model {
   mpm::MotionModel<Dim> motion;
   mpm::Constraints<Dim> constraints;
   mpm::BetweenBodies between_bodies;
-  terrain::ContactModel<Dim> contact;
+  terrain::ContactModel contact;
   band::BandModel<Dim> band;
   std::shared_ptr<const terrain::FollowingGround<Dim>> ground;  // null if there is none
   std::shared_ptr<const terrain::Substrates> substrates;        // null if the ground is of one kind

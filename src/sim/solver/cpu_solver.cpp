@@ -12,9 +12,6 @@
 #include "sim/setup/terrain_at_columns.hpp"
 #include "sim/solver/clock.hpp"
 #include "sim/solver/time_step.hpp"
-#include "terrain/band_marks.hpp"
-#include "terrain/map_back.hpp"
-#include "terrain/near_ground.hpp"
 
 namespace thawslide::sim {
 
@@ -33,7 +30,7 @@ void CpuSolver<Dim>::find_cells(double time) {
   slide_.set_layers(setup_.model, time);
   slide_.update_grid(setup_.model, slide_.sorting_interval);
   if (slide_.grid.blocks_changed() && !setup_.parameters.mechanics.enabled) {
-    terrain::start_contact(slide_.grid, ground(), nodes_);  // there is no contact, and no step resolves it
+    terrain::start_contact(slide_on_ground());  // there is no contact, and no step resolves it
   }
 }
 
@@ -50,28 +47,6 @@ template <int Dim>
 void CpuSolver<Dim>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(slide_.grid, slide_.particles, setup_.model.motion, nodes_);
   blocks_of_nodes_ = slide_.grid.blocks();
-}
-
-// Only nodes out of reach of band columns need the state of particles, and only if a law reads it.
-template <int Dim>
-void CpuSolver<Dim>::press_on_ground(double time, double dt, bool reads_mass) {
-  const Model<Dim>& model = setup_.model;
-  if (!model.ground) {
-    return;
-  }
-  const auto to_grid =
-      base_.columns || !reads_mass ? &terrain::clearance_to_grid<Dim> : &terrain::near_ground_to_grid<Dim>;
-  to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
-  nodes_.base_states = {};
-  if (base_.columns) {
-    base_.columns->to_nodes(slide_.grid.block_tables());
-    nodes_.base_states = base_.columns->states();
-  }
-  terrain::press_on_ground(slide_.grid, slide_.ground, model.constraints, model.contact, time, dt, nodes_);
-  if (base_.columns && reads_mass && terrain::loads_bare_ground(slide_.grid, nodes_)) {
-    band_stages().average_on_grid();
-    terrain::near_ground_to_grid(slide_.grid, slide_.ground, model.motion, slide_.particles, nodes_);
-  }
 }
 
 template <int Dim>
@@ -92,23 +67,14 @@ void CpuSolver<Dim>::resolve_contact(double time, double dt, const terrain::Stre
                                             {slide_.grid, nodes_}});
     body_contact_.add_forces(*between_bodies_);
   }
-  press_on_ground(time, dt, model.contact.reads_mass || strength != nullptr);
-  const bool has_bed = base_.bed_in_reach(model) != nullptr;
-  if (has_bed) {
-    if (!bed_) {
-      bed_.emplace(cpu_, *base_.bed);
-    }
-    bed_->update(slide_.grid, slide_.ground, model.motion.sizes, slide_.particles, nodes_);
+  mpm::BaseStates<Dim> columns;
+  if (base_.columns) {
+    base_.columns->to_nodes(slide_.grid.block_tables());
+    columns = base_.columns->states();
   }
-  sums_.contact = terrain::resolve_contact(slide_.grid, ground(), model.constraints, model.contact, time, dt, nodes_,
-                                           has_bed ? &*bed_ : nullptr, strength);
-  sums_.contact.force[0] -= force_of_walls_;  // the walls are part of the ground
-  if (has_bed) {
-    bed_->collect(dt);
-  }
-  if (model.ground) {
-    terrain::mark_band_and_slip(slide_.grid, slide_.ground, dt, nodes_, slide_.particles);
-  }
+  sums_.contact = contact_.resolve(
+      slide_on_ground(), model.contact, time, dt, columns, [this] { band_stages().average_on_grid(); },
+      base_.bed_in_reach(model), strength, force_of_walls_);
   update_columns(setup_, slide_.grid, slide_.ground, time, dt, nodes_, base_);
 }
 
@@ -119,8 +85,7 @@ void CpuSolver<Dim>::move_particles(double time, double dt) {
   if (model.motion.filter_order > 0 && filters_in_step(setup_.parameters, time, dt)) {
     sums_.filtered = mpm::filter_velocities(slide_.grid, slide_.particles, model.motion, nodes_);
   }
-  sums_.mapped_back = terrain::constrain_mapped_back(slide_.grid, ground(), model.constraints, model.contact,
-                                                     model.motion.gravity, time, dt, nodes_);
+  sums_.mapped_back = terrain::constrain_mapped_back(slide_on_ground(), time, dt);
   if (body_contact_.work_count() > 0) {
     std::vector<mpm::BodyContactWork> works(body_contact_.work_count());
     body_contact_.constrain_mapped_back(*between_bodies_, works.data());
@@ -188,7 +153,7 @@ void CpuSolver<Dim>::begin() {
   if (model.ground) {
     terrain::set_contact_offset(model.motion.sizes, slide_.grid.cell(), slide_.particles);
   }
-  mark_band();
+  terrain::start_contact(slide_on_ground());
   if (!model.contact.band_columns) {
     band_stages().rescale_band(setup_.band_thickness(clock_.time));
   }
@@ -217,15 +182,6 @@ void CpuSolver<Dim>::join(std::size_t first) {
   }
   if (!model.contact.band_columns) {
     band_stages().rescale_band(setup_.band_thickness(clock_.time), first);
-  }
-}
-
-// Marks the particles in the band before anything has moved.
-template <int Dim>
-void CpuSolver<Dim>::mark_band() {
-  terrain::start_contact(slide_.grid, ground(), nodes_);
-  if (setup_.model.ground) {
-    terrain::mark_band_and_slip(slide_.grid, slide_.ground, 0.0, nodes_, slide_.particles);
   }
 }
 

@@ -15,8 +15,7 @@
 #include "sim/solver/clock.hpp"
 #include "sim/solver/slide.hpp"
 #include "sim/solver/solver.hpp"
-#include "terrain/bed_on_grid.hpp"
-#include "terrain/block_step.hpp"
+#include "terrain/contact.hpp"
 
 namespace thawslide::sim {
 
@@ -66,7 +65,6 @@ class CpuSolver final : public Solver<Dim> {
   void average_band_on_grid(bool law_is_given);
   void momentum_to_grid();
   void resolve_contact(double time, double dt, const terrain::StrengthLaw* strength);
-  void press_on_ground(double time, double dt, bool reads_mass);
   void move_particles(double time, double dt);
   void update_stress_and_porosity(double dt);
   void conduct_heat(double dt);
@@ -75,7 +73,6 @@ class CpuSolver final : public Solver<Dim> {
 
   using ContactOfBodies = mpm::BodyContactArgs<mpm::NodeAccess<Dim>, Dim>;
 
-  void mark_band();
   [[nodiscard]] band::StagesOnCpu<Dim> band_stages() {
     return {slide_.grid, setup_.model.band, slide_.particles, nodes_};
   }
@@ -85,9 +82,15 @@ class CpuSolver final : public Solver<Dim> {
   void update_flow_depth();
   // Updates the load on particles at memory index `first` and above: weight of the column above, normal to the ground.
   void update_normal_load(std::size_t first = 0);
-  // Null without terrain.
-  [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const {
-    return setup_.model.ground ? &slide_.ground : nullptr;
+  [[nodiscard]] terrain::SlideOnGround<Dim> slide_on_ground() {
+    const Model<Dim>& model = setup_.model;
+    return {slide_.grid,
+            model.ground ? &slide_.ground : nullptr,
+            model.constraints,
+            model.motion,
+            model.contact,
+            slide_.particles,
+            nodes_};
   }
 
   const Setup<Dim>& setup_;
@@ -102,8 +105,8 @@ class CpuSolver final : public Solver<Dim> {
   exec::Cpu cpu_;
   mpm::BodyContact<exec::Cpu, Dim> body_contact_{cpu_};
   mpm::TableMemory tables_;
+  terrain::ContactOnCpu<Dim> contact_;
   std::optional<ContactOfBodies> between_bodies_;  // of the step
-  std::optional<terrain::BedOnGrid<Dim>> bed_;     // none before the bed is in reach
   std::vector<std::uint64_t> blocks_of_nodes_;
   double band_thickness_ = -1.0;  // of the last scaling [m]
   double rescaling_heat_ = 0;     // added since the last complete step [J]

@@ -8,7 +8,7 @@
 #include "device/reductions.hpp"
 #include "device/step_sums.hpp"
 #include "mpm/front.hpp"
-#include "terrain/strength_law.hpp"
+#include "terrain/basal_law.hpp"
 
 namespace thawslide::device {
 struct MapSample;

@@ -38,7 +38,6 @@ device::StepModel<Dim> step_model_of(const config::Case& parameters, const Model
   device.finds_extremes = parameters.time.stepping == config::Stepping::adaptive;
   device.counts_escaped =
       parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
-  device.base = model.contact.law;
   device.contact = model.contact;
   const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
   device.band = model.band;

@@ -7,7 +7,7 @@
 
 #include "../support/small_terrain.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/profile_surface.hpp"
+#include "terrain/polyline.hpp"
 
 namespace thawslide::terrain {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "exec/cpu.hpp"
 #include "terrain/basal_law.hpp"
 
 namespace thawslide::terrain {
@@ -104,6 +105,7 @@ TEST(BasalLaw, DependsOnTheSubstrateOfEachNode) {
                  {VoellmyFriction{0.2, 500.0}, ConstantCohesion{3.0}}};
   const std::array<int, 6> substrates{1, 0, 2, 1, 3, 3};
   const std::array<double, 6> pore_pressures{400.0, 400.0, 400.0, 1500.0, 400.0, 1500.0};
+  exec::Cpu cpu;
   std::array<BasalNode, 6> nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     nodes[k].area = 1.0;
@@ -116,7 +118,7 @@ TEST(BasalLaw, DependsOnTheSubstrateOfEachNode) {
     nodes[k].state.unit_weight = 20.0;
   }
   const auto strength = [&](std::size_t k) { return nodes[k].strength(law.clamp, law.cap_pressure); };
-  evaluate_basal_law(law, nodes);
+  evaluate_basal_law(cpu, law, nodes.data(), nodes.size());
   EXPECT_DOUBLE_EQ(strength(0), 100.0) << "0.1 N, independent of P";
   EXPECT_DOUBLE_EQ(strength(1), 310.0);
   EXPECT_DOUBLE_EQ(strength(2), 600.0 + 75.0 * std::exp(-1.0));
@@ -125,7 +127,7 @@ TEST(BasalLaw, DependsOnTheSubstrateOfEachNode) {
   EXPECT_DOUBLE_EQ(strength(4), 0.2 * 600.0 + 20.0 * 100.0 / 500.0 + 3.0);
   EXPECT_DOUBLE_EQ(strength(5), 4.0 + 3.0) << "drag where P passes N";
   law.clamp = physics::FrictionClamp::joint;
-  evaluate_basal_law(law, nodes);
+  evaluate_basal_law(cpu, law, nodes.data(), nodes.size());
   EXPECT_DOUBLE_EQ(strength(5), 4.0) << "excess pressure cancels cohesion, not drag";
 }
 

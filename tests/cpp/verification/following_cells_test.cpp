@@ -5,7 +5,7 @@
 #include "mpm/particle_pass.hpp"
 #include "terrain/following_ground.hpp"
 #include "terrain/height_field.hpp"
-#include "terrain/profile_surface.hpp"
+#include "terrain/polyline.hpp"
 #include "verification.hpp"
 
 namespace thawslide::verification {

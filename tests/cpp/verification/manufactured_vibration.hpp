@@ -14,7 +14,7 @@
 
 #include "mpm/cell_sums.hpp"
 #include "mpm/motion.hpp"
-#include "terrain/map_back.hpp"
+#include "terrain/contact.hpp"
 
 namespace thawslide::sim {
 
@@ -138,11 +138,11 @@ class ManufacturedVibration {
     grid_.update(particles_, 64);
     mpm::momentum_to_grid(grid_, particles_, model_, nodes_);
     add_body_force();
-    const terrain::GroundOnGrid<2>* no_ground = nullptr;
-    terrain::resolve_contact(grid_, no_ground, constraints_, terrain::ContactModel<2>{}, time_, dt, nodes_);
+    const terrain::ContactModel contact;
+    const terrain::SlideOnGround<2> without_ground{grid_, nullptr, constraints_, model_, contact, particles_, nodes_};
+    terrain::ContactOnCpu<2>().resolve(without_ground, contact, time_, dt);
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
-    terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2>{}, model_.gravity, time_,
-                                   dt, nodes_);
+    terrain::constrain_mapped_back(without_ground, time_, dt);
     mpm::InvalidParticle invalid = mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_).invalid;
     invalid += mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent);
     THAWSLIDE_ASSERT(invalid.id < 0, "particle {} failed at {} s", invalid.id, time_);

@@ -162,8 +162,8 @@ device::StepModel<Dim> model_of_slide() {
   model.extent.setConstant(1e5);
   model.lower.setZero();
   model.upper = model.extent;
-  model.base.grounds[0].friction = physics::basal::ConstantFriction{std::tan(20.0 * pi / 180.0)};
-  model.base.grounds[0].cohesion = physics::basal::ConstantCohesion{0.0};
+  model.contact.law.grounds[0].friction = physics::basal::ConstantFriction{std::tan(20.0 * pi / 180.0)};
+  model.contact.law.grounds[0].cohesion = physics::basal::ConstantCohesion{0.0};
   model.contact.distance_check = true;
   model.finds_extremes = model.counts_escaped = true;
   return model;
