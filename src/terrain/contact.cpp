@@ -180,7 +180,7 @@ class ContactPasses {
         Walls(slide_.grid, slide_.constraints, b, time_),
         slide_.grid.block_tables(),
         slide_.motion.width.view(),
-        slide_.options,
+        slide_.contact,
         slide_.grid.cell(),
         time_,
         dt_};
@@ -232,14 +232,14 @@ void start_contact(const SlideOnGround<Dim>& slide) {
 }
 
 template <int Dim>
-ContactWork<Dim> ContactOnCpu<Dim>::resolve(const SlideOnGround<Dim>& slide, const ContactModel& model, double time,
-                                            double dt, const mpm::BaseStates<Dim>& columns,
+ContactWork<Dim> ContactOnCpu<Dim>::resolve(const SlideOnGround<Dim>& slide, double time, double dt,
+                                            const mpm::BaseStates<Dim>& columns,
                                             const std::function<void()>& average_band, Bed<Dim>* bed,
                                             const StrengthLaw* strength, double of_walls) {
   const ContactPasses<Dim> passes(slide, time, dt);
   passes.allocate_records();
   ContactWork<Dim> work;
-  stage_.resolve(passes, model, columns, average_band, bed, strength, &of_walls, &work);
+  stage_.resolve(passes, slide.contact, columns, average_band, bed, strength, &of_walls, &work);
   return work;
 }
 

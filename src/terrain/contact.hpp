@@ -18,7 +18,7 @@ struct SlideOnGround {
   const GroundOnGrid<Dim>* ground;  // null if there is none
   const mpm::Constraints<Dim>& constraints;
   const mpm::MotionModel<Dim>& motion;
-  const ContactOptions& options;
+  const ContactModel& contact;
   mpm::Particles<Dim>& particles;
   mpm::Nodes<Dim>& nodes;
 };
@@ -40,7 +40,7 @@ class ContactOnCpu {
   // As ContactStage::resolve, in a step of dt from `time` [s]. Requires nodes.momentum, and if the mass is read, also
   // nodes.averages and nodes.state, except at nodes with band columns. Fills nodes.near_ground and nodes.base of
   // candidate nodes, nodes.contact and nodes.motion.
-  ContactWork<Dim> resolve(const SlideOnGround<Dim>& slide, const ContactModel& model, double time, double dt,
+  ContactWork<Dim> resolve(const SlideOnGround<Dim>& slide, double time, double dt,
                            const mpm::BaseStates<Dim>& columns = {}, const std::function<void()>& average_band = {},
                            Bed<Dim>* bed = nullptr, const StrengthLaw* strength = nullptr, double of_walls = 0.0);
 

@@ -59,9 +59,7 @@ class ContactStage {
                ContactWork<Dim>* work) {
     const double* strengths = nullptr;
     if (passes.has_ground()) {
-      const bool reads_mass = model.reads_mass || strength != nullptr;
-      press_on_ground(passes, columns, reads_mass, average_band);
-      evaluate_laws(passes, model, columns, reads_mass);
+      evaluate_base(passes, model, columns, model.reads_mass || strength != nullptr, average_band);
       if (strength != nullptr && !model.base_is_fixed) {
         strengths = strengths_by(*strength, passes, model.law);
       }
@@ -91,8 +89,8 @@ class ContactStage {
   // Only nodes out of reach of band columns need the state of particles, and only if a law reads it. A device does not
   // wait to find out whether there are any.
   template <class Passes, class AverageBand>
-  void press_on_ground(Passes& passes, const mpm::BaseStates<Dim>& columns, bool reads_mass,
-                       const AverageBand& average_band) {
+  void evaluate_base(Passes& passes, const ContactModel& model, const mpm::BaseStates<Dim>& columns, bool reads_mass,
+                     const AverageBand& average_band) {
     const bool has_columns = columns.records != nullptr;
     passes.near_ground_to_grid(reads_mass && !has_columns);
     passes.for_candidates(PressOnGround{});
@@ -102,10 +100,6 @@ class ContactStage {
         passes.near_ground_to_grid(true);
       }
     }
-  }
-
-  template <class Passes>
-  void evaluate_laws(Passes& passes, const ContactModel& model, const mpm::BaseStates<Dim>& columns, bool reads_mass) {
     const double face = Dim == 2 ? passes.cell() : passes.cell() * passes.cell();
     bases_.resize(passes.candidate_count());
     passes.for_candidates(GatherBasalNode<Dim>{static_cast<double>(smallest_area) * face, model.law.gravity,

@@ -46,7 +46,12 @@ def test_pages_show_the_output_of_long_commands(page: str, scratch: Scratch) -> 
 
 
 HEADER = "physics/basal/weakening_friction.hpp"
-UNIT = '#include "terrain/basal_law.hpp"\n'  # evaluates all laws
+UNIT = """#include "exec/cpu.hpp"
+#include "terrain/basal_law.hpp"
+namespace thawslide::terrain {  // evaluates all laws
+template void evaluate_basal_law(exec::Cpu&, const BasalLaw&, BasalNode*, std::size_t);
+}
+"""
 
 
 def test_friction_law_of_the_recipe_fits_the_list(tmp_path: Path) -> None:

@@ -140,7 +140,7 @@ class ManufacturedVibration {
     add_body_force();
     const terrain::ContactModel contact;
     const terrain::SlideOnGround<2> without_ground{grid_, nullptr, constraints_, model_, contact, particles_, nodes_};
-    terrain::ContactOnCpu<2>().resolve(without_ground, contact, time_, dt);
+    terrain::ContactOnCpu<2>().resolve(without_ground, time_, dt);
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
     terrain::constrain_mapped_back(without_ground, time_, dt);
     mpm::InvalidParticle invalid = mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_).invalid;
