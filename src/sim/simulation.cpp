@@ -9,6 +9,7 @@
 #include "sim/direction.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/setup/bodies.hpp"
+#include "sim/solver/device_solver.hpp"
 
 namespace thawslide::sim {
 
@@ -234,8 +235,7 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
 template <int Dim>
 void Simulation<Dim>::use_device(const std::string& device, device::SolverFactory<Dim> make) {
   solver().release();
-  device_ =
-      std::make_unique<DeviceSolver<Dim>>(setup_, *slide_, base_, clock_, stopwatch_, cpu_, device, std::move(make));
+  device_ = make_device_solver<Dim>(setup_, *slide_, base_, clock_, stopwatch_, cpu_, device, std::move(make));
 }
 
 template <int Dim>

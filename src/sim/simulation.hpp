@@ -8,6 +8,7 @@
 
 #include "base/clocks.hpp"
 #include "base/error.hpp"
+#include "device/solver_factory.hpp"
 #include "sim/between_steps/monitor.hpp"
 #include "sim/between_steps/new_particles.hpp"
 #include "sim/between_steps/removed_particles.hpp"
@@ -18,7 +19,6 @@
 #include "sim/solver/base.hpp"
 #include "sim/solver/budget.hpp"
 #include "sim/solver/cpu_solver.hpp"
-#include "sim/solver/device_solver.hpp"
 #include "sim/solver/time_step.hpp"
 
 namespace thawslide::sim {
@@ -94,9 +94,9 @@ class Simulation {
   [[nodiscard]] std::int64_t split_count() const { return slide_->split_count; }
 
   // True if particles are outdated and no step can continue from them.
-  [[nodiscard]] bool device_has_failed() const { return device_ && device_->has_failed(); }
+  [[nodiscard]] bool device_has_failed() const { return solver().has_failed(); }
   // Device that performs the steps; empty for the CPU.
-  [[nodiscard]] std::string device_name() const { return device_ ? device_->name() : ""; }
+  [[nodiscard]] std::string device_name() const { return solver().name(); }
 
   [[nodiscard]] const config::Case& parameters() const { return setup_.parameters; }
   [[nodiscard]] const config::Site& site() const { return setup_.site; }
@@ -179,7 +179,7 @@ class Simulation {
   void restore(const std::vector<double>& scalars);
 
  private:
-  [[nodiscard]] Solver<Dim>& solver() { return device_ ? static_cast<Solver<Dim>&>(*device_) : cpu_; }
+  [[nodiscard]] Solver<Dim>& solver() { return device_ ? *device_ : cpu_; }
   [[nodiscard]] const Solver<Dim>& solver() const { return device_ ? static_cast<const Solver<Dim>&>(*device_) : cpu_; }
   [[nodiscard]] band::SumsOfParticle<Dim> sums_of_particle() const;
   [[nodiscard]] FailureText<Dim> failure_text() const { return {setup_, *slide_, sum_over_body()}; }
@@ -205,9 +205,9 @@ class Simulation {
   Clock clock_;
   Stopwatch stopwatch_;
   CpuSolver<Dim> cpu_;
-  std::unique_ptr<DeviceSolver<Dim>> device_;  // null unless a device performs the steps
-  StepSums<Dim> sums_;                         // of the last step
-  Budget<Dim> budget_, budget_before_;         // current, and before the step
+  std::unique_ptr<Solver<Dim>> device_;  // null unless a device performs the steps
+  StepSums<Dim> sums_;                   // of the last step
+  Budget<Dim> budget_, budget_before_;   // current, and before the step
   RunMonitor monitor_;
   Removed removed_;
   mpm::InvalidParticle invalid_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "band/step_extremes.hpp"
@@ -35,6 +36,10 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
+  // Name of the device; empty for the CPU.
+  [[nodiscard]] virtual std::string name() const { return ""; }
+  // True if the particles in host memory are outdated and no step can continue from them.
+  [[nodiscard]] virtual bool has_failed() const { return false; }
   // Transfers the particles to where the step is performed, unless they are there.
   virtual void start() = 0;
   // Advances particles by dt [s] from the time of the clock. strength: replaces the basal laws of the case; or null. If
