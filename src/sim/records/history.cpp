@@ -4,157 +4,222 @@
 
 #include "band/base_sums.hpp"
 #include "sim/direction.hpp"
+#include "sim/records/output_columns.hpp"
 
 namespace thawslide::sim {
 
 namespace {
 
-// Adds the means of the band, over its particles or, if the band consists of columns, over the base.
+// Groups of the reference.
+enum Group : std::size_t { motion, band, band_columns, force, mechanical, heat, mass, guards, momentum, bed };
+
+// State from which a row is computed.
 template <int Dim>
-void add_band(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, HistoryRow& row) {
-  const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
-  if (const auto* columns = simulation.band_columns()) {
-    const band::BaseMeans base = band::means_of(*columns);
-    add("band_temperature_C", base.temperature);
-    add("band_saturation", base.saturation);
-    add("band_pore_pressure_Pa", base.pore_pressure);
-    add("band_normal_pressure_Pa", base.load);
-    add("band_shear_Pa", simulation.contact().shear_force / simulation.contact().area);
-    add("band_thickness_m", base.thickness);
-    add("band_max_temperature_C", base.max_temperature);
-    add("band_max_wet_temperature_C", base.max_wet_temperature);
-    add("band_dry_fraction", base.dry_fraction);
-    add("band_max_pressure_ratio", base.max_pressure_ratio);
-    return;
-  }
-  const double mass = sums.band_mass > 0.0 ? sums.band_mass : std::nan("");
-  add("band_temperature_C", sums.band_temperature / mass);
-  add("band_saturation", sums.band_saturation / mass);
-  add("band_pore_pressure_Pa", sums.band_pore_pressure / mass);
-}
-
-// Adds the heat and water balances of band columns; returns the heat held by the columns minus the heat supplied.
-template <int Dim, class Add>
-double add_columns(const Simulation<Dim>& simulation, const Add& add) {
-  const auto* columns = simulation.band_columns();
-  if (columns == nullptr) {
-    return 0.0;
-  }
-  const band::ColumnSums sums = band::sums_of(*columns);
-  const band::ColumnLedger& budget = columns->budget();
-  const double heat_in = budget.created_heat + budget.body_heat + budget.ground_heat;
-  const double heat_out = budget.vented_heat + budget.steam_heat + budget.left_heat;
-  const double water_in = budget.created_water + budget.body_water;
-  const double water_out = budget.vented_water + budget.steam + budget.left_water;
-  add("base_area_m2", sums.area);
-  add("column_heat_J", sums.heat);
-  add("column_intake_J", heat_in);
-  add("column_drained_J", budget.vented_heat);
-  add("column_steam_J", budget.steam_heat);
-  add("column_left_J", budget.left_heat);
-  add("column_water_kg", sums.water);
-  add("column_intake_kg", water_in);
-  add("column_drained_kg", budget.vented_water);
-  add("column_steam_kg", budget.steam);
-  add("column_left_kg", budget.left_water);
-  add("column_water_residual_kg", sums.water + water_out - water_in);
-  add("column_opening_m3", sums.opening);
-  add("column_void_m3", sums.gas_void);
-  return sums.heat + heat_out - heat_in;
-}
-
-// Adds the entrained mass, the remaining bed, and the balances of both. `add` takes the name and a number per metre of
-// width.
-template <int Dim, class Add>
-void add_bed(const Simulation<Dim>& simulation, const Add& add) {
-  const auto* bed = simulation.bed();
-  if (bed == nullptr) {
-    return;
-  }
-  const auto sums = bed->sums();
-  const Budget<Dim>& budget = simulation.budget();
-  const double entrained = sums.loose + budget.bed_joined_mass;
-  add("entrained_mass_kg", entrained);
-  add("entrained_volume_m3", entrained / bed->material().density);
-  add("entrained_work_J", budget.bed_work);
-  add("entrained_heat_J", budget.bed_heat);
-  add("loose_mass_kg", sums.loose);
-  add("bed_mass_kg", sums.left);
-  add("bed_residual_kg", sums.left + entrained - sums.initial);
-  add("bed_residual_J", budget.bed_work - budget.bed_joined_kinetic - budget.bed_heat - sums.loose_work);
-}
+struct State {
+  double time = 0, step = 0, last_step = 0, width = 1;
+  FrontInRow front{};
+  BodySums<Dim> body;
+  Budget<Dim> budget;
+  terrain::ContactWork<Dim> contact;
+  Vector<double, Dim> force = Vector<double, Dim>::Zero(), weight = force;  // on the ground, and of the slide
+  band::BaseMeans base{};  // over the particles of the band or, if it consists of columns, over the base
+  band::ColumnSums columns{};
+  band::ColumnLedger exchanged{};  // by the columns
+  typename terrain::Bed<Dim>::Sums bed{};
+  double bed_density = 1;
+};
 
 template <int Dim>
-void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, double width, HistoryRow& row) {
-  const Budget<Dim>& budget = simulation.budget();
-  const auto add = [&](const char* name, double value) { row.emplace_back(name, width * value); };
-  const double strain = budget.stress_work - budget.plastic;
-  const double stored = sums.kinetic + sums.potential + strain;
-  const double dissipated =
-      budget.plastic + budget.viscous + budget.damping + budget.friction_work + budget.contact_loss;
-  add("kinetic_J", sums.kinetic);
-  add("potential_J", sums.potential);
-  add("strain_J", strain);
-  add("plastic_J", budget.plastic);
-  add("viscous_J", budget.viscous);
-  add("damping_J", budget.damping);
-  add("pore_work_J", budget.pore_work);
-  add("friction_work_J", budget.friction_work);
-  add("contact_loss_J", budget.contact_loss);
-  add("frame_work_J", budget.frame_work);
-  add("friction_heat_J", budget.friction_heat);
-  add("converted_J", budget.converted);
-  add("sensible_J", sums.sensible);
-  add("latent_J", sums.latent);
-  add("boundary_heat_J", budget.boundary_heat);
-  add("band_rescale_J", budget.band_rescale);
-  add("advection_J", budget.advection);
-  add("capacity_heat_J", budget.capacity_heat);
-  add("porosity_heat_J", budget.porosity_heat);
-  add("drained_heat_J", budget.drained_heat);
-  add("numerical_J", budget.numerical);
-  add("mechanical_residual_J", stored + dissipated + budget.pore_work - budget.frame_work - budget.numerical +
-                                   budget.left_mechanical + budget.bed_work - budget.joined_mechanical -
-                                   budget.initial_mechanical);
-  const double in_columns = add_columns(simulation, add);
-  add("thermal_residual_J", in_columns + sums.sensible + sums.latent - budget.initial_thermal - budget.friction_heat -
-                                budget.boundary_heat - budget.band_rescale - budget.advection - budget.capacity_heat -
-                                budget.porosity_heat + budget.drained_heat + budget.left_thermal -
-                                budget.joined_thermal);
-  add("mass_kg", sums.mass);
-  add("rock_kg", sums.rock);
-  add("ice_kg", sums.ice);
-  add("water_kg", sums.water);
-  add("pore_water_kg", sums.water + sums.seeped);
-  add("drained_water_kg", budget.drained_water);
-  add("vented_water_kg", budget.vented_water);
-  add("seepage_residual_kg", sums.seeped + budget.left_seeped + budget.drained_water + budget.vented_water);
-  add("pore_void_m3", sums.gas);
-  add("mass_residual_kg", sums.mass + budget.left_mass - budget.joined_mass - budget.initial_mass);
-  add("left_mass_kg", budget.left_mass);
-  add("left_mechanical_J", budget.left_mechanical);
-  add("left_heat_J", budget.left_thermal);
-  if (config::guards_remove(simulation.parameters())) {
-    add("removed_mass_kg", budget.removed_mass);
-  }
-  add_bed(simulation, add);
-  const Vector<double, Dim> residual = sums.momentum + budget.left_momentum + budget.bed_impulse -
-                                       budget.joined_momentum - budget.initial_momentum - budget.gravity_impulse -
-                                       budget.ground_impulse - budget.constraint_impulse;
-  const auto add_vector = [&](const char* name, const char* unit, const Vector<double, Dim>& value) {
-    for (int a = 0; a < Dim; ++a) {
-      row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit), width * value[a]);
-    }
+struct Column {
+  // A number, or one number per axis.
+  struct Value {
+    Value(double number) : axes(Vector<double, Dim>::Constant(number)) {}
+    template <class Expression>
+    Value(const Eigen::MatrixBase<Expression>& vector) : axes(vector) {}
+
+    Vector<double, Dim> axes;
   };
-  add_vector("momentum", "N_s", sums.momentum);
-  add_vector("left_momentum", "N_s", budget.left_momentum);
-  add_vector("gravity_impulse", "N_s", budget.gravity_impulse);
-  add_vector("ground_impulse", "N_s", budget.ground_impulse);
-  add_vector("constraint_impulse", "N_s", budget.constraint_impulse);
-  if (simulation.bed() != nullptr) {
-    add_vector("entrained_momentum", "N_s", budget.bed_impulse);
-  }
-  add_vector("momentum_residual", "N_s", residual);
+
+  Group group;
+  const char *name, *unit, *meaning;  // as in OutputColumn
+  Value value;
+  bool is_described_last = false;  // of its group
+};
+
+// All columns in the order of the table.
+template <int Dim>
+std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
+  const Budget<Dim>& b = s.budget;
+  const band::ColumnLedger& c = s.exchanged;
+  const double w = s.width;
+  const auto mean = [&](double sum) { return sum / s.body.mass; };
+  const double strain = b.stress_work - b.plastic;
+  const double stored = s.body.kinetic + s.body.potential + strain;
+  const double dissipated = b.plastic + b.viscous + b.damping + b.friction_work + b.contact_loss;
+  const double heat_in = c.created_heat + c.body_heat + c.ground_heat;
+  const double heat_out = c.vented_heat + c.steam_heat + c.left_heat;
+  const double water_in = c.created_water + c.body_water;
+  const double water_out = c.vented_water + c.steam + c.left_water;
+  const double entrained = s.bed.loose + b.bed_joined_mass;
+  return {
+      {motion, "time_s", "s", "simulated time", s.time},
+      {motion, "step", "1", "number of time steps performed", s.step},
+      {motion, "dt_s", "s", "length of the last time step", s.last_step},
+      {motion, "mean_velocity_m_s", "m/s", "magnitude of the total momentum divided by the total mass",
+       mean(s.body.momentum.norm())},
+      {motion, "max_velocity_m_s", "m/s", "speed of the fastest particle", std::sqrt(s.body.largest_speed2)},
+      {motion, "mean_displacement_m", "m", "mass-weighted mean of the path lengths of the particles",
+       mean(s.body.displacement)},
+      {motion, "front_position_m", "m",
+       "x behind which 99.5 % of the mass of bodies that have moved is located; in 3D the distance along the path",
+       s.front.position},
+      {motion, "runout_m", "m",
+       "distance from the rear of the bodies that have moved, at t = 0, to the front; in 3D along the path",
+       s.front.runout},
+      {band, "band_temperature_C", "C", "mean temperature of the band", s.base.temperature},
+      {band, "band_saturation", "1", "mean liquid saturation of the band", s.base.saturation},
+      {band, "band_pore_pressure_Pa", "Pa", "mean pore pressure of the band", s.base.pore_pressure},
+      {band_columns, "band_normal_pressure_Pa", "Pa", "mean normal pressure N, averaged over `band.load_time`",
+       s.base.load},
+      {band_columns, "band_shear_Pa", "Pa",
+       "shear traction of the base over the area in contact, by friction and cohesion, in the last time step",
+       s.contact.shear_force / s.contact.area},
+      {band_columns, "band_thickness_m", "m", "mean thickness of the band", s.base.thickness},
+      {band_columns, "band_max_temperature_C", "C", "maximum temperature of any column", s.base.max_temperature},
+      {band_columns, "band_max_wet_temperature_C", "C",
+       "maximum temperature of cells that contain more than a thousandth of the water of full pores",
+       s.base.max_wet_temperature},
+      {band_columns, "band_dry_fraction", "1", "fraction of the base at which a cell of the band has no water left",
+       s.base.dry_fraction},
+      {band_columns, "band_max_pressure_ratio", "1", "maximum ratio of pore pressure P to averaged N over all columns",
+       s.base.max_pressure_ratio},
+      {band, "band_friction_coefficient", "1",
+       "area-weighted mean of the friction coefficient mu_e over the nodes in contact, in the last time step",
+       s.contact.area > 0.0 ? s.contact.friction_area / s.contact.area : std::nan("")},
+      {motion, "mean_plastic_strain", "1", "mass-weighted mean of the equivalent plastic strain",
+       mean(s.body.plastic_strain)},
+      {motion, "dilation_volume_m3", "m3",
+       "change of the particles' volume since t = 0; for entrained bed material since its entrainment",
+       w * s.body.volume_change},
+      {motion, "dilation_fraction", "1", "that change as a fraction of the initial volume",
+       s.body.volume_change / s.body.initial_volume},
+      {force, "basal_force_*_N", "N",
+       "force on the ground in the last time step, and on the sides of a 2D section whose width varies; at t = 0 the "
+       "weight",
+       w * s.force},
+      {force, "seismic_force_*_N", "N", "the same less the static weight: the force that a seismic inversion gives",
+       w * (s.force - s.weight)},
+      {mechanical, "kinetic_J", "J", "kinetic energy, the sum of m v^2/2", w * s.body.kinetic},
+      {mechanical, "potential_J", "J", "potential energy, minus the sum of m g.x from the origin of the coordinates",
+       w * s.body.potential},
+      {mechanical, "strain_J", "J", "stress work less plastic work", w * strain},
+      {mechanical, "plastic_J", "J", "energy dissipated by yielding", w * b.plastic},
+      {mechanical, "viscous_J", "J", "energy dissipated by viscosity", w * b.viscous},
+      {mechanical, "damping_J", "J", "energy dissipated by mass damping", w * b.damping},
+      {mechanical, "pore_work_J", "J",
+       "work of the pore pressure while the body changes its volume, with `mechanics.effective_stress`",
+       w * b.pore_work},
+      {mechanical, "friction_work_J", "J", "energy dissipated by sliding on the ground", w * b.friction_work},
+      {mechanical, "contact_loss_J", "J", "energy dissipated by impact on the ground and the sides, and by sticking",
+       w * b.contact_loss},
+      {mechanical, "frame_work_J", "J", "work of rigid frames on the material", w * b.frame_work},
+      {heat, "friction_heat_J", "J", "part of the friction work that heated the material", w * b.friction_heat},
+      {heat, "converted_J", "J",
+       "the other part of the friction work, summed separately at the contact nodes. It is all of the work if "
+       "`heat.enabled` is false",
+       w * b.converted},
+      {heat, "sensible_J", "J", "sensible heat, zero at `freezing.reference_temperature`", w * s.body.sensible},
+      {heat, "latent_J", "J", "latent heat, zero for wholly frozen material", w * s.body.latent},
+      {heat, "boundary_heat_J", "J", "heat gained through the sides of the domain", w * b.boundary_heat},
+      {heat, "band_rescale_J", "J", "heat created by a change of the band thickness", w * b.band_rescale},
+      {heat, "advection_J", "J", "heat created by the advection term in the form that does not conserve heat",
+       w * b.advection},
+      {heat, "capacity_heat_J", "J",
+       "heat created by an update with the old apparent capacity, with `heat.update = \"apparent_capacity\"`",
+       w * b.capacity_heat},
+      {heat, "porosity_heat_J", "J",
+       "heat created by masses that follow porosity and volume, with `heat.masses = \"current\"`", w * b.porosity_heat},
+      {heat, "drained_heat_J", "J", "heat lost with drained water, with `heat.advection_form = \"conservative\"`",
+       w * b.drained_heat},
+      {mechanical, "numerical_J", "J", "energy created by the transfers (FLIP, MUSL, the filter of FMPM), computed",
+       w * b.numerical},
+      {mechanical, "mechanical_residual_J", "J", "residual of the mechanical energy budget",
+       w * (stored + dissipated + b.pore_work - b.frame_work - b.numerical + b.left_mechanical + b.bed_work -
+            b.joined_mechanical - b.initial_mechanical),
+       true},
+      {band_columns, "base_area_m2", "m2", "area of the base that has columns", w * s.columns.area},
+      {band_columns, "column_heat_J", "J",
+       "heat in the columns, with the friction heat accumulated for their next step", w * s.columns.heat},
+      {band_columns, "column_intake_J", "J",
+       "heat gained with new columns, from the body and from the ground, less the return to the body when columns "
+       "become shorter. Heat of cold material is negative",
+       w * heat_in},
+      {band_columns, "column_drained_J", "J", "heat lost with drained water", w * c.vented_heat},
+      {band_columns, "column_steam_J", "J", "heat lost as steam", w * c.steam_heat},
+      {band_columns, "column_left_J", "J", "heat lost with removed columns", w * c.left_heat},
+      {band_columns, "column_water_kg", "kg", "ice and water in the columns", w * s.columns.water},
+      {band_columns, "column_intake_kg", "kg",
+       "ice and water gained with new columns and from the body, less the return to the body when columns become "
+       "shorter",
+       w * water_in},
+      {band_columns, "column_drained_kg", "kg", "water lost by drainage", w * c.vented_water},
+      {band_columns, "column_steam_kg", "kg", "water lost as steam", w * c.steam},
+      {band_columns, "column_left_kg", "kg", "ice and water lost with removed columns", w * c.left_water},
+      {band_columns, "column_water_residual_kg", "kg", "residual of the columns' water budget",
+       w * (s.columns.water + water_out - water_in)},
+      {band_columns, "column_opening_m3", "m3", "volume that water at P = N has opened along the base",
+       w * s.columns.opening},
+      {band_columns, "column_void_m3", "m3", "volume of gas in the pores of the columns", w * s.columns.gas_void},
+      {heat, "thermal_residual_J", "J", "residual of the thermal energy budget",
+       w * (s.columns.heat + heat_out - heat_in + s.body.sensible + s.body.latent - b.initial_thermal -
+            b.friction_heat - b.boundary_heat - b.band_rescale - b.advection - b.capacity_heat - b.porosity_heat +
+            b.drained_heat + b.left_thermal - b.joined_thermal),
+       true},
+      {mass, "mass_kg", "kg", "mass of all particles", w * s.body.mass},
+      {mass, "rock_kg", "kg", "mass of rock", w * s.body.rock},
+      {mass, "ice_kg", "kg", "mass of ice; melting and freezing use the scaled volume `V/xi`", w * s.body.ice},
+      {mass, "water_kg", "kg",
+       "mass of water. Rock, ice and water sum to `mass_kg` unless `heat.masses` is `\"current\"`", w * s.body.water},
+      {mass, "pore_water_kg", "kg", "`water_kg` with the gain and loss of the particles by seepage",
+       w * (s.body.water + s.body.seeped)},
+      {mass, "drained_water_kg", "kg", "water that seepage removed at the surface", w * b.drained_water},
+      {mass, "vented_water_kg", "kg", "water that seepage removed into frozen pores", w * b.vented_water},
+      {mass, "seepage_residual_kg", "kg", "residual of the seepage budget",
+       w * (s.body.seeped + b.left_seeped + b.drained_water + b.vented_water)},
+      {mass, "pore_void_m3", "m3", "volume of gas in the pores of the band's own material, `V/xi`", w * s.body.gas},
+      {mass, "mass_residual_kg", "kg", "residual of the mass budget",
+       w * (s.body.mass + b.left_mass - b.joined_mass - b.initial_mass), true},
+      {mass, "left_mass_kg", "kg", "mass of particles removed when they left (`grid.leaving`) or by guards",
+       w * b.left_mass},
+      {mechanical, "left_mechanical_J", "J", "kinetic and potential energy of removed particles",
+       w * b.left_mechanical},
+      {heat, "left_heat_J", "J", "heat of removed particles", w * b.left_thermal},
+      {guards, "removed_mass_kg", "kg", "part of `left_mass_kg` that guards removed", w * b.removed_mass},
+      {bed, "entrained_mass_kg", "kg", "mass removed from the bed", w * entrained},
+      {bed, "entrained_volume_m3", "m3", "its volume at the density of the bed", w * (entrained / s.bed_density)},
+      {bed, "entrained_work_J", "J", "mechanical energy transferred to entrained material", w * b.bed_work},
+      {bed, "entrained_heat_J", "J", "part of that energy that became heat of new particles", w * b.bed_heat},
+      {bed, "loose_mass_kg", "kg", "part of the entrained mass that has not been converted to particles yet",
+       w * s.bed.loose, true},
+      {bed, "bed_mass_kg", "kg", "mass that remains in the bed", w * s.bed.left, true},
+      {bed, "bed_residual_kg", "kg", "residual of the bed's mass budget", w * (s.bed.left + entrained - s.bed.initial),
+       true},
+      {bed, "bed_residual_J", "J", "residual of the budget of `entrained_work_J`",
+       w * (b.bed_work - b.bed_joined_kinetic - b.bed_heat - s.bed.loose_work), true},
+      {momentum, "momentum_*_N_s", "N s", "total momentum", w * s.body.momentum},
+      {momentum, "left_momentum_*_N_s", "N s", "momentum of removed particles", w * b.left_momentum},
+      {momentum, "gravity_impulse_*_N_s", "N s", "impulse of gravity", w * b.gravity_impulse},
+      {momentum, "ground_impulse_*_N_s", "N s",
+       "impulse of the ground, which also holds bodies before their release, and of the sides of a 2D section whose "
+       "width varies",
+       w * b.ground_impulse},
+      {momentum, "constraint_impulse_*_N_s", "N s",
+       "impulse of the sides of the domain, of rigid frames and of mass damping", w * b.constraint_impulse},
+      {bed, "entrained_momentum_*_N_s", "N s", "momentum transferred to entrained material", w * b.bed_impulse},
+      {momentum, "momentum_residual_*_N_s", "N s", "residual of the momentum budget",
+       w * (s.body.momentum + b.left_momentum + b.bed_impulse - b.joined_momentum - b.initial_momentum -
+            b.gravity_impulse - b.ground_impulse - b.constraint_impulse)},
+  };
 }
 
 }  // namespace
@@ -173,38 +238,75 @@ HistoryRow history_row(const Simulation<Dim>& simulation) {
 template <int Dim>
 HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& front) {
   const config::Case& parameters = simulation.parameters();
-  const BodySums<Dim> sums = simulation.sum_over_body();
-  const auto& contact = simulation.contact();
-  const double width = parameters.general.width.factor();
-  HistoryRow row;
-  row.emplace_back("time_s", simulation.time());
-  row.emplace_back("step", static_cast<double>(simulation.step_number()));
-  row.emplace_back("dt_s", simulation.last_step());
-  const auto mean = [&](double sum) { return sum / sums.mass; };
-  row.emplace_back("mean_velocity_m_s", mean(sums.momentum.norm()));
-  row.emplace_back("max_velocity_m_s", std::sqrt(sums.largest_speed2));
-  row.emplace_back("mean_displacement_m", mean(sums.displacement));
-  row.emplace_back("front_position_m", front.position);
-  row.emplace_back("runout_m", front.runout);
-  add_band(simulation, sums, row);
-  row.emplace_back("band_friction_coefficient",
-                   contact.area > 0.0 ? (contact.friction_area / contact.area) : std::nan(""));
-  row.emplace_back("mean_plastic_strain", mean(sums.plastic_strain));
-  row.emplace_back("dilation_volume_m3", width * sums.volume_change);
-  row.emplace_back("dilation_fraction", sums.volume_change / sums.initial_volume);
-  const char* axes = Dim == 2 ? "xy" : "xyz";
-  const Vector<double, Dim> weight = sums.mass * simulation.model().motion.gravity;
+  State<Dim> state{.time = simulation.time(),
+                   .step = static_cast<double>(simulation.step_number()),
+                   .last_step = simulation.last_step(),
+                   .width = parameters.general.width.factor(),
+                   .front = front,
+                   .body = simulation.sum_over_body(),
+                   .budget = simulation.budget(),
+                   .contact = simulation.contact()};
+  state.weight = state.body.mass * simulation.model().motion.gravity;
   // Before the first step, the ground carries the weight of the mass at rest.
   const bool is_carried = simulation.ground() != nullptr && parameters.mechanics.enabled;
-  const Vector<double, Dim> force = simulation.step_number() == 0 && is_carried ? weight : contact.force;
-  for (int a = 0; a < Dim; ++a) {
-    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), width * force[a]);
+  state.force = simulation.step_number() == 0 && is_carried ? state.weight : state.contact.force;
+  const auto* columns = simulation.band_columns();
+  if (columns != nullptr) {
+    state.base = band::means_of(*columns);
+    state.columns = band::sums_of(*columns);
+    state.exchanged = columns->budget();
+  } else {
+    const double in_band = state.body.band_mass > 0.0 ? state.body.band_mass : std::nan("");
+    state.base.temperature = state.body.band_temperature / in_band;
+    state.base.saturation = state.body.band_saturation / in_band;
+    state.base.pore_pressure = state.body.band_pore_pressure / in_band;
   }
-  for (int a = 0; a < Dim; ++a) {
-    row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]), width * (force[a] - weight[a]));
+  if (simulation.bed() != nullptr) {
+    state.bed = simulation.bed()->sums();
+    state.bed_density = simulation.bed()->material().density;
   }
-  add_ledger(simulation, sums, width, row);
+  HistoryRow row;
+  for (const Column<Dim>& column : columns_of(state)) {
+    if ((column.group == band_columns && columns == nullptr) || (column.group == bed && simulation.bed() == nullptr) ||
+        (column.group == guards && !config::guards_remove(parameters))) {
+      continue;
+    }
+    std::string name = column.name;
+    const std::size_t star = name.find('*');
+    for (int a = 0; a < (star == std::string::npos ? 1 : Dim); ++a) {
+      if (star != std::string::npos) {
+        name[star] = "xyz"[a];
+      }
+      row.emplace_back(name, column.value.axes[a]);
+    }
+  }
   return row;
+}
+
+const std::vector<ColumnGroup>& history_columns() {
+  static const std::vector<ColumnGroup> described = [] {
+    std::vector<ColumnGroup> groups{
+        {"Time and motion", "", {}},
+        {"Band", "", {}},
+        {"Band columns", "with `band.model = \"columns\"`", {}},
+        {"Force on the ground", "", {}},
+        {"Mechanical energy", "", {}},
+        {"Heat", "", {}},
+        {"Mass and water", "", {}},
+        {"Guards", "if `guards.not_finite` or `guards.volume` is `\"remove\"`", {}},
+        {"Momentum", "", {}},
+        {"Erodible bed", "with `[bed]`", {}},
+    };
+    for (const bool last : {false, true}) {
+      for (const Column<3>& column : columns_of(State<3>{})) {
+        if (column.is_described_last == last) {
+          groups[column.group].columns.push_back({column.name, column.unit, column.meaning});
+        }
+      }
+    }
+    return groups;
+  }();
+  return described;
 }
 
 template HistoryRow history_row<2>(const Simulation<2>&);
