@@ -73,8 +73,8 @@ void CpuSolver<Dim>::resolve_contact(double time, double dt, const terrain::Stre
     columns = base_.columns->states();
   }
   sums_.contact = contact_.resolve(
-      slide_on_ground(), model.contact, time, dt, columns, [this] { band_stages().average_on_grid(); },
-      base_.bed_in_reach(model), strength, force_of_walls_);
+      slide_on_ground(), time, dt, columns, [this] { band_stages().average_on_grid(); }, base_.bed_in_reach(model),
+      strength, force_of_walls_);
   update_columns(setup_, slide_.grid, slide_.ground, time, dt, nodes_, base_);
 }
 
