@@ -241,10 +241,7 @@ std::vector<BodyAtStart> bodies_at_start(const Model<Dim>& model, const mpm::Par
     body.mass += mass;
     body.lower = std::min(body.lower, x - half + model.origin[0]);
     body.upper = std::max(body.upper, x + half + model.origin[0]);
-    typename terrain::Surface<Dim>::Point point;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      point[a] = particles.position(p, a);
-    }
+    const auto point = particles.position.template get<Vector<double, Dim - 1>>(p);
     departures[number].add_momentum(mass, speed, std::abs(speed));
     departures[number].add_force(mass, model.ground ? model.ground->gradient(point, cell)[0] : 0.0,
                                  model.motion.gravity[0], -model.motion.gravity[Dim - 1]);

@@ -11,7 +11,6 @@
 
 #include "base/raster.hpp"
 #include "config/site.hpp"
-#include "sim/between_steps/new_particles.hpp"
 #include "sim/solver/budget.hpp"
 #include "sim/solver/slide.hpp"
 #include "sim/solver/solver.hpp"

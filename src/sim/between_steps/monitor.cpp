@@ -53,32 +53,20 @@ double energy_so_far(const Budget<Dim>& budget, const mpm::MonitorSums& seen, do
                             budget.friction_work + budget.contact_loss);
 }
 
-// True if more than moving_fraction_at_rest of the mass moves faster than `speed` [m/s].
-template <int Dim>
-bool starts_faster(const mpm::Particles<Dim>& particles, double speed) {
-  double mass = 0.0, fast_mass = 0.0;
+// True if the property of more than moving_fraction_at_rest of the mass exceeds a limit. of_particle(p): the property.
+template <int Dim, class OfParticle>
+bool exceeds(double limit, const mpm::Particles<Dim>& particles, const OfParticle& of_particle) {
+  double mass = 0.0, above = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const auto velocity = particles.velocity.template get<Vector<double, Dim>>(p);
     mass += particles.mass(p);
-    fast_mass += velocity.norm() > speed ? particles.mass(p) : 0.0;
+    above += of_particle(p) > limit ? particles.mass(p) : 0.0;
   }
-  return fast_mass > moving_fraction_at_rest * mass;
+  return above > moving_fraction_at_rest * mass;
 }
 
 // Time for which a slide must be slow from the start to be at rest [s].
 double rest_time_from_start(const config::Time& times, double gravity) {
   return std::min(times.rest_time, fall_times * rest_speed(times) / gravity);
-}
-
-// True if more than moving_fraction_at_rest of the mass has moved farther than a distance [m].
-template <int Dim>
-bool has_moved_further(const mpm::Particles<Dim>& particles, double distance) {
-  double mass = 0, far_mass = 0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    mass += particles.mass(p);
-    far_mass += particles.path_length(p) > distance ? particles.mass(p) : 0.0;
-  }
-  return far_mass > moving_fraction_at_rest * mass;
 }
 
 // Time of the last scheduled change of the case, or of the last release [s].
@@ -112,7 +100,10 @@ RunMonitor monitor_at_start(const Setup<Dim>& setup, const Slide<Dim>& slide, co
     monitor.energy_at_start += slide.particles.volume(p) * physics::elastic_energy_density(material.elastic, stress);
   }
   monitor.lowest_made = energy_made(budget, seen);
-  monitor.rest_since = starts_faster(slide.particles, rest_speed(setup.parameters.time)) ? -1.0 : 0.0;
+  const auto speed = [&](std::size_t p) {
+    return slide.particles.velocity.template get<Vector<double, Dim>>(p).norm();
+  };
+  monitor.rest_since = exceeds(rest_speed(setup.parameters.time), slide.particles, speed) ? -1.0 : 0.0;
   return monitor;
 }
 
@@ -144,7 +135,8 @@ void update_rest(const Setup<Dim>& setup, double time, const mpm::MonitorSums& s
     // The criterion of rest used another speed so far.
     monitor.rest_since = -1.0;
     solver.copy_particles_back();
-    monitor.has_moved = has_moved_further(slide.particles, times.moved_distance) ? 1.0 : 0.0;
+    const auto moved = [&](std::size_t p) { return slide.particles.path_length(p); };
+    monitor.has_moved = exceeds(times.moved_distance, slide.particles, moved) ? 1.0 : 0.0;
   }
   if (moves) {
     monitor.has_moved = times.stop_at_rest > 0.0 ? 1.0 : not_sampled;

@@ -142,11 +142,7 @@ std::string text_of_left_slide(const Clock& clock, double mass) {
 
 template <int Dim>
 Vector<double, Dim> position_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles, std::size_t p) {
-  Vector<double, Dim> position;
-  for (int a = 0; a < Dim; ++a) {
-    position[a] = particles.position(p, a) + model.origin[a];
-  }
-  return position;
+  return particles.position.template get<Vector<double, Dim>>(p) + model.origin;
 }
 
 template <int Dim>
@@ -202,9 +198,8 @@ std::string FailureText<Dim>::terrain_ahead(std::size_t p, mpm::Fault fault) con
   if (Dim == 2 || setup_.site.ground == nullptr || fault == mpm::Fault::left_map) {
     return level;
   }
-  const Point2 position{particles_.position(p, 0) + setup_.model.origin[0],
-                        particles_.position(p, 1) + setup_.model.origin[1]};
-  const double to_edge = distance_to_domain_edge(setup_.site, position, {velocity[0], velocity[1]});
+  const Vector<double, Dim> position = position_of(setup_.model, particles_, p);
+  const double to_edge = distance_to_domain_edge(setup_.site, {position[0], position[1]}, {velocity[0], velocity[1]});
   return level + (to_edge <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
                                     "it. {}",

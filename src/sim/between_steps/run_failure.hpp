@@ -5,7 +5,7 @@
 
 #include "band/body_sums.hpp"
 #include "mpm/kernel_totals.hpp"
-#include "sim/setup/setup.hpp"
+#include "sim/setup/model.hpp"
 #include "sim/solver/clock.hpp"
 #include "sim/solver/slide.hpp"
 

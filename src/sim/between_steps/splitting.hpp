@@ -8,7 +8,7 @@
 
 #include "mpm/particles.hpp"
 #include "mpm/splitting.hpp"
-#include "sim/setup/setup.hpp"
+#include "sim/setup/model.hpp"
 #include "sim/solver/slide.hpp"
 
 namespace thawslide::sim {

@@ -1,5 +1,3 @@
-#include "sim/checks/steep_terrain.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "sim/checks/unresolved_terrain.hpp"
 
 namespace thawslide::sim {
 
@@ -21,10 +20,7 @@ void add_bodies_on_lower_ground(const Simulation<Dim>& simulation, const std::ve
   const auto& particles = simulation.particles();
   std::vector<double> lowered(model.body_names.size(), 0.0);
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    Vector<double, Dim - 1> place;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      place[a] = particles.position(p, a);
-    }
+    const auto place = particles.position.template get<Vector<double, Dim - 1>>(p);
     double& most = lowered[static_cast<std::size_t>(particles.body(p))];
     most = std::max(most, model.ground->terrain().height(place) - model.ground->height(place));
   }

@@ -7,8 +7,6 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "base/rounding.hpp"
-#include "sim/checks/steep_terrain.hpp"
 
 namespace thawslide::sim {
 

@@ -94,15 +94,9 @@ MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
 
 Raster ground_of_cells(const config::Case& parameters, const config::Site& site, const Model<3>& model) {
   const MapGrid grid = map_grid_of(parameters, site);
-  Raster raster;
-  raster.x = grid.x;
-  raster.y = grid.y;
-  raster.cell_x = grid.cell_x;
-  raster.cell_y = grid.cell_y;
-  raster.columns = grid.columns;
-  raster.rows = grid.rows;
-  raster.crs = grid.crs;
-  raster.values.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), std::nan(""));
+  const std::size_t cells = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+  Raster raster{grid.x,  grid.y, grid.cell_x, grid.cell_y, grid.columns, grid.rows, std::vector(cells, std::nan("")),
+                grid.crs};
   const Vector<double, 2> origin = model.origin.head<2>(), extent = model.constraints.extent.head<2>();
   parallel_for(static_cast<std::size_t>(grid.rows), [&](std::size_t row) {
     const int j = static_cast<int>(row);

@@ -48,6 +48,19 @@ mpm::SparseGrid<Dim> make_grid(const config::Case& parameters, const Model<Dim>&
   return mpm::SparseGrid<Dim>(parameters.grid.cell, model.between_bodies.layer_of_body, mapping_of(model));
 }
 
+// Case of a simulation and all that follows from it before the first step.
+template <int Dim>
+struct Setup {
+  config::Case parameters;
+  config::Site site;  // contents of its map files
+  Model<Dim> model;
+
+  [[nodiscard]] double cell() const { return parameters.grid.cell; }  // mesh size [m]
+  [[nodiscard]] bool is_adaptive() const { return parameters.time.stepping == config::Stepping::adaptive; }
+  // Prescribed band thickness [m].
+  [[nodiscard]] double band_thickness(double time) const { return parameters.band.thickness.at(time); }
+};
+
 // site: contents of the map files of the case; required if the terrain is a DEM.
 template <int Dim>
 Model<Dim> make_model(const config::Case& parameters, const config::Site& site = {});

@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
-#include "sim/setup/model.hpp"
 #include "sim/setup/restored_state.hpp"
 
 namespace thawslide::sim {

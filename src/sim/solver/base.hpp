@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "band/base_sums.hpp"
-#include "sim/setup/setup.hpp"
+#include "sim/setup/model.hpp"
 #include "terrain/bed.hpp"
 #include "terrain/ground_on_grid.hpp"
 

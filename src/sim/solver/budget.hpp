@@ -3,7 +3,7 @@
 
 #include "base/linear.hpp"
 #include "device/step_sums.hpp"
-#include "sim/setup/setup.hpp"
+#include "sim/setup/model.hpp"
 
 namespace thawslide::sim {
 

@@ -6,12 +6,20 @@
 
 #include "base/clocks.hpp"
 #include "device/solver_factory.hpp"
+#include "device/step_model.hpp"
 #include "sim/solver/base.hpp"
 #include "sim/solver/clock.hpp"
 #include "sim/solver/slide.hpp"
 #include "sim/solver/solver.hpp"
 
 namespace thawslide::sim {
+
+// Input of a solver. clock: before the first step on the device.
+template <int Dim>
+device::StepModel<Dim> step_model_of(const config::Case& parameters, const Model<Dim>& model, const Clock& clock);
+// Queries of the model's terrain; the model must outlive the result.
+template <int Dim>
+device::HostCallbacks<Dim> host_callbacks_of(const Model<Dim>& model, double cell);
 
 // name: of the device. host: reduces the particles while they are in host memory. All references must outlive the
 // solver.

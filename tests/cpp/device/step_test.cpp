@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "run_on_device.hpp"
-#include "sim/solver/step_model.hpp"
+#include "sim/solver/device_solver.hpp"
 
 namespace thawslide::sim {
 namespace {

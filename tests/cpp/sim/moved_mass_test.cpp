@@ -1,6 +1,4 @@
 // Front, runout and drop height are those of bodies that have moved; a body at rest is no part of them.
-#include "sim/moved_mass.hpp"
-
 #include <gtest/gtest.h>
 
 #include "../support/base_cases.hpp"
@@ -8,6 +6,7 @@
 #include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"
 #include "sim/records/run_records.hpp"
+#include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 namespace {
