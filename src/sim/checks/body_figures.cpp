@@ -15,10 +15,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-template <int Dim>
-using CellIndex =
-    std::array<int, static_cast<std::size_t>(Dim)>;  // of a cubic cell, relative to the domain's lower corner
-
 // Column of particles of one body.
 struct Column {
   double volume = 0.0;
@@ -35,11 +31,12 @@ class Bodies {
       const int per_axis = body == parameters().bodies.end() ? 1 : body->second.particles_per_axis;
       spacing_.push_back(parameters().grid.cell / per_axis);
     }
+    columns_.resize(spacing_.size());
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const auto body = static_cast<std::size_t>(particles.body(p));
       const double spacing = spacing_[body];
-      Column& column = columns_[{particles.body(p), column_of(p, spacing)}];
+      Column& column = columns_[body][cell_of<Dim - 1>(p, spacing)];
       column.volume += volume_in_section(p);
       const double underside = height(p) - 0.5 * volume_in_section(p) / std::pow(spacing, Dim - 1);
       if (underside < column.underside) {
@@ -47,7 +44,7 @@ class Bodies {
         column.lowest = p;
       }
       if (parameters().bodies.size() > 1) {
-        by_cell_[cell_of(p)].push_back(p);
+        by_cell_[cell_of<Dim>(p, parameters().grid.cell)].push_back(p);
       }
     }
   }
@@ -58,8 +55,7 @@ class Bodies {
     const std::vector<double>& release_times = simulation_.model().release_times;
     figures.release_time = release_times.empty() ? 0.0 : release_times[number];
     figures.spacing = spacing_[number];
-    sum_particles(number, figures);
-    const double section = sum_in_section(number);
+    const double section = sum_particles(number, figures);
     figures.shape_volume = shape_volume(figures, section) * (figures.volume / section);
     measure_columns(number, figures);
     const auto release = simulation_.site().releases.find(figures.name);
@@ -73,22 +69,21 @@ class Bodies {
   }
 
  private:
-  using OfBody = std::pair<std::int32_t, CellIndex<Dim - 1>>;
+  // Of a cubic cell, relative to the domain's lower corner.
+  template <std::size_t Axes>
+  using CellIndex = std::array<int, Axes>;
 
   [[nodiscard]] const config::Case& parameters() const { return simulation_.parameters(); }
   [[nodiscard]] double height(std::size_t p) const { return simulation_.particles().position(p, Dim - 1); }
-  [[nodiscard]] CellIndex<Dim - 1> column_of(std::size_t p, double width) const {
-    CellIndex<Dim - 1> index;
-    for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      index[a] = static_cast<int>(std::floor(simulation_.particles().position(p, static_cast<int>(a)) / width));
-    }
-    return index;
+  [[nodiscard]] std::size_t body_of(std::size_t p) const {
+    return static_cast<std::size_t>(simulation_.particles().body(p));
   }
-  [[nodiscard]] CellIndex<Dim> cell_of(std::size_t p) const {
-    CellIndex<Dim> index;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      index[a] = static_cast<int>(
-          std::floor(simulation_.particles().position(p, static_cast<int>(a)) / parameters().grid.cell));
+  // Cell of a lattice of this width [m].
+  template <std::size_t Axes>
+  [[nodiscard]] CellIndex<Axes> cell_of(std::size_t p, double width) const {
+    CellIndex<Axes> index;
+    for (std::size_t a = 0; a < Axes; ++a) {
+      index[a] = static_cast<int>(std::floor(simulation_.particles().position(p, static_cast<int>(a)) / width));
     }
     return index;
   }
@@ -97,13 +92,6 @@ class Bodies {
   [[nodiscard]] double volume_in_section(std::size_t p) const {
     const auto& particles = simulation_.particles();
     return particles.volume(p) / simulation_.model().motion.width.at(particles.position(p, 0));
-  }
-  [[nodiscard]] double sum_in_section(std::size_t number) const {
-    double sum = 0.0;
-    for (std::size_t p = 0; p < simulation_.particles().size(); ++p) {
-      sum += static_cast<std::size_t>(simulation_.particles().body(p)) == number ? volume_in_section(p) : 0.0;
-    }
-    return sum;
   }
 
   // Volume of the shape. A release or a body without a shape has the volume of its particles, `seeded`.
@@ -115,12 +103,15 @@ class Bodies {
     return BodyShape<Dim>(parameters(), simulation_.site(), body->second, std::nullopt).volume();
   }
 
-  void sum_particles(std::size_t number, BodyFigures& figures) const {
+  // Returns the volume in a section.
+  double sum_particles(std::size_t number, BodyFigures& figures) const {
     const auto& particles = simulation_.particles();
     figures.coldest = infinity;
     figures.warmest = -infinity;
+    double section = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      if (static_cast<std::size_t>(particles.body(p)) == number) {
+      if (body_of(p) == number) {
+        section += volume_in_section(p);
         ++figures.particles;
         figures.volume += particles.volume(p);
         figures.mass += particles.mass(p);
@@ -128,6 +119,7 @@ class Bodies {
         figures.warmest = std::max(figures.warmest, particles.temperature(p));
       }
     }
+    return section;
   }
 
   void measure_columns(std::size_t number, BodyFigures& figures) const {
@@ -135,11 +127,9 @@ class Bodies {
     Raster thickness;  // by column
     double resting = 0.0;
     figures.clearance = infinity;
-    const auto first = columns_.lower_bound({static_cast<std::int32_t>(number), lowest_index()});
-    const auto last = columns_.lower_bound({static_cast<std::int32_t>(number) + 1, lowest_index()});
-    for (auto column = first; column != last; ++column) {
-      thickness.values.push_back(column->second.volume / width);
-      const double clearance = clearance_of(column->second);
+    for (const auto& [index, column] : columns_[number]) {
+      thickness.values.push_back(column.volume / width);
+      const double clearance = clearance_of(column);
       figures.clearance = std::min(figures.clearance, clearance);
       resting += clearance < figures.spacing ? 1.0 : 0.0;
     }
@@ -164,21 +154,11 @@ class Bodies {
     figures.largest_thickness = largest;
   }
 
-  static CellIndex<Dim - 1> lowest_index() {
-    CellIndex<Dim - 1> index;
-    index.fill(std::numeric_limits<int>::min());
-    return index;
-  }
-
   // Clearance between a column's underside and the ground, a holding side of the domain, or another body [m].
   [[nodiscard]] double clearance_of(const Column& column) const {
     double below = -infinity;
     if (const auto& ground = simulation_.model().ground) {
-      typename terrain::Surface<Dim>::Point point;
-      for (int a = 0; a + 1 < Dim; ++a) {
-        point[a] = simulation_.particles().position(column.lowest, a);
-      }
-      below = ground->height(point);
+      below = ground->height(simulation_.particles().position.template get<Vector<double, Dim - 1>>(column.lowest));
     }
     if (parameters().grid.boundary[2 * (Dim - 1)] != config::BoundaryKind::open) {
       below = std::max(below, 0.0);
@@ -190,29 +170,18 @@ class Bodies {
   // none.
   [[nodiscard]] double clearance_over_bodies(const Column& column) const {
     double clearance = infinity;
-    if (by_cell_.empty()) {
-      return clearance;
-    }
     const auto& particles = simulation_.particles();
-    const CellIndex<Dim> middle = cell_of(column.lowest);
-    constexpr int around = Dim == 3 ? 27 : 9;
-    for (int k = 0; k < around; ++k) {
+    const CellIndex<Dim> middle = cell_of<Dim>(column.lowest, parameters().grid.cell);
+    for (int k = 0; k < mpm::Tile<Dim>::stencil && !by_cell_.empty(); ++k) {
       CellIndex<Dim> point = middle;
-      int rest = k;
-      for (std::size_t a = 0; a < Dim; ++a, rest /= 3) {
-        point[a] += rest % 3 - 1;
+      for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a < Dim; ++a, rest /= 3) {
+        point[a] += static_cast<int>(rest % 3) - 1;
       }
       const auto found = by_cell_.find(point);
-      if (found == by_cell_.end()) {
-        continue;
-      }
-      for (const std::size_t p : found->second) {
-        if (particles.body(p) == particles.body(column.lowest) || height(p) > height(column.lowest)) {
-          continue;
-        }
-        const double half = 0.5 * spacing_[static_cast<std::size_t>(particles.body(p))];
-        const double reach = half + 0.5 * spacing_[static_cast<std::size_t>(particles.body(column.lowest))];
-        bool is_below = true;
+      for (std::size_t n = 0; found != by_cell_.end() && n < found->second.size(); ++n) {
+        const std::size_t p = found->second[n];
+        const double half = 0.5 * spacing_[body_of(p)], reach = half + 0.5 * spacing_[body_of(column.lowest)];
+        bool is_below = body_of(p) != body_of(column.lowest) && height(p) <= height(column.lowest);
         for (int a = 0; a + 1 < Dim; ++a) {
           is_below = is_below && std::abs(particles.position(p, a) - particles.position(column.lowest, a)) <= reach;
         }
@@ -226,7 +195,7 @@ class Bodies {
 
   const Simulation<Dim>& simulation_;
   std::vector<double> spacing_;                                 // by body [m]
-  std::map<OfBody, Column> columns_;                            // on a lattice with the body's spacing
+  std::vector<std::map<CellIndex<Dim - 1>, Column>> columns_;   // by body, on a lattice with its spacing
   std::map<CellIndex<Dim>, std::vector<std::size_t>> by_cell_;  // particle indices; empty for one body
 };
 
