@@ -129,6 +129,7 @@ struct GatherBasalNode {
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Step& step, const Node& node,
                                                        std::size_t candidate) const {
     using mpm::BaseLoad;
+    using Layout = mpm::MomentumLayout<Dim>;
     BasalNode& base = bases[candidate];
     const double load = step.nodes.template read<BaseLoad>(node)[BaseLoad::load];
     base.area = 0.0;
@@ -155,7 +156,8 @@ struct GatherBasalNode {
       set_columns_state(column, step.options.pore_pressure, base.state);
     }
     base.state.time = step.time;
-    base.state.unit_weight = unit_weight_of<Dim>(step.nodes.template read<mpm::Momentum>(node), gravity);
+    const double* momentum = step.nodes.template read<mpm::Momentum>(node);
+    base.state.unit_weight = gravity * momentum[Layout::mass] / momentum[Layout::volume];
   }
 };
 

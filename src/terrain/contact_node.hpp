@@ -148,13 +148,6 @@ THAWSLIDE_HD physics::basal::ContactNode contact_node_of(const StateRecord& know
   return node;
 }
 
-// Unit weight rho g [N/m3] of the sliding mass at a node. record: of MomentumLayout.
-template <int Dim, class Record>
-THAWSLIDE_HD double unit_weight_of(const Record& record, double gravity) {
-  using Layout = mpm::MomentumLayout<Dim>;
-  return gravity * record[Layout::mass] / record[Layout::volume];
-}
-
 // Replaces the basal state by that of the band columns. Without columns yet, the state is that of the body, with zero
 // pore pressure. state: record of BaseState.
 template <class Record>
