@@ -24,15 +24,10 @@ struct BlockStart {
 };
 
 // Runs the case as a rigid block until time.end, with the fixed step of the case or the limit of the adaptive one.
-// Returns one row per time.history_interval (0: each step), beginning with the state at t = 0. Columns: time_s,
-// velocity_m_s, displacement_m, front_position_m, travel_distance_m and drop_height_m as a run has them,
-// normal_pressure_Pa and pore_pressure_Pa at the base, sliding_strength_Pa, driving_traction_Pa, band_temperature_C,
-// band_saturation, band_pore_pressure_Pa, band_friction_coefficient, friction_work_J_m2, friction_heat_J_m2 and
-// heat_gain_J_m2, the last three per base area; valley_factor: the area of the base over that of the section's profile
-// (valley_factor.hpp). Velocity, displacement and driving traction are positive in the direction of travel; the front
-// is an x coordinate. site: contains the profile of a section. valley_factor: over x. start: by default that of the
-// particles, which is not that of a release wider than its section. Throws UserError for a case without terrain, with
-// more than one body, or with a step above a limit.
+// Returns one row per time.history_interval (0: each step), beginning with the state at t = 0, with the
+// columns of block_columns() (records/output_columns.hpp). site: contains the profile of a section. valley_factor: over
+// x. start: by default that of the particles, which is not that of a release wider than its section. Throws UserError
+// for a case without terrain, with more than one body, or with a step above a limit.
 std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site = {},
                                   Table valley_factor = Table(1.0), const std::optional<BlockStart>& start = {});
 

@@ -8,7 +8,6 @@
 #include "base/rounding.hpp"
 #include "base/table.hpp"
 #include "sim/block/section.hpp"
-#include "sim/checks/valley_factor.hpp"
 #include "sim/maps/path_line.hpp"
 #include "sim/setup/release_body.hpp"
 #include "sim/setup/substrates.hpp"

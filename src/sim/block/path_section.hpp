@@ -23,7 +23,7 @@ namespace thawslide::sim {
 struct PathSection {
   config::Case parameters;  // 2D: x is the distance along the path [m], y the elevation [m]
   config::Site site;        // contains the profile
-  Table valley_factor;      // over the distance (valley_factor.hpp)
+  Table valley_factor;      // over the distance (section.hpp)
   BlockStart start;         // of the whole release
   bool path_given = true;   // false: found by steepest descent
   double off_steepest = 0;  // angle between the path and the steepest descent at the release's middle [degrees]

@@ -300,7 +300,6 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   std::vector<Seed<Dim>> seeds;
   std::vector<const config::Body*> bodies;
   std::vector<std::size_t> material_of;
-  std::vector<std::string> names;
   std::vector<BodyShape<Dim>> shapes;
   std::vector<const config::Release*> releases;
   for (const auto& [name, body] : parameters.bodies) {
@@ -309,7 +308,6 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
     const BodyShape<Dim>& shape = shapes[bodies.size()];
-    names.push_back(name);
     seed_body(parameters, model, body, shapes, static_cast<int>(bodies.size()), seeds);
     require_volume(parameters, model, name, body, shape, before, seeds);
     require_above_ground(parameters, model, name, before, seeds);
@@ -321,7 +319,7 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);
     material_of.push_back(static_cast<std::size_t>(material - model.material_names.begin()));
   }
-  require_apart(parameters, names, shapes, seeds);
+  require_apart(parameters, model.body_names, shapes, seeds);
   particles.resize(seeds.size());
   for (std::size_t p = 0; p < seeds.size(); ++p) {
     const Seed<Dim>& seed = seeds[p];

@@ -12,7 +12,6 @@
 #include "../support/small_terrain.hpp"
 #include "sim/block/block.hpp"
 #include "sim/block/path_section.hpp"
-#include "sim/checks/valley_factor.hpp"
 
 namespace thawslide::sim {
 namespace {
