@@ -304,11 +304,11 @@ TEST(BlockConstraints, AgreeWithThoseOfTheirNodes) {
     std::size_t blocks_without = 0, nodes_with = 0;
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
       const BlockConstraints<2> on_block(grid, constraints, b, time);
-      blocks_without += on_block.at(0).any() ? 0 : 1;
+      blocks_without += on_block(NodeAt{b, 0}).any() ? 0 : 1;
       for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<2>::nodes); ++k) {
         Vector<double, 2> free(3.0, 5.0), held = free;
         const bool in_frame = constraints.motion().apply(node_position(grid, b, k), 2.0, time, free);
-        EXPECT_EQ(on_block.at(k).apply(2.0, held), in_frame);
+        EXPECT_EQ(on_block(NodeAt{b, k}).apply(2.0, held), in_frame);
         EXPECT_EQ(held, free);
         nodes_with += held != Vector<double, 2>(3.0, 5.0) ? 1 : 0;
       }
