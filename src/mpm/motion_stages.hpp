@@ -48,7 +48,9 @@ template <int Dim, class Passes>
 void update_stress_and_porosity(Passes& passes, const MotionParameters<Dim>& motion, const WidthView& width, double dt,
                                 Deformed* deformed) {
   with_width<Dim>(width, [&]<class Width>(const Width& of_section) {
-    std::vector<typename DeformByLaw<Dim, Width>::Type> by_material;
+    // persistent, to avoid allocation in each step
+    thread_local std::vector<typename DeformByLaw<Dim, Width>::Type> by_material;
+    by_material.clear();
     for (const MaterialModel& material : motion.materials) {
       std::visit(
           [&]<class Law>(const Law& law) {
