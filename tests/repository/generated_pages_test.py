@@ -50,14 +50,6 @@ def test_the_command_line_page_has_every_command(tmp_path: Path) -> None:
 
 
 @needs_program
-def test_every_history_column_is_defined() -> None:
-    source = (ROOT / "src" / "sim" / "records" / "history.cpp").read_text()
-    columns = set(re.findall(r'(?:emplace_back|\badd)\("(\w+)"', source))
-    columns |= {f"{name}_{axis}_N" for name in re.findall(r'"(\w+)_\{\}_N"', source) for axis in "xyz"}
-    assert len(columns) > 35
-    assert columns - set(re.findall(r"`([^`\n]+)`", call(PROGRAM, "describe", "--outputs"))) == set()
-
-
 def test_the_overview_has_each_page_of_the_navigation_with_a_sentence(tmp_path: Path) -> None:
     navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nnav:\n")[1]
     pages = set(re.findall(r"- (?:[\w ]+: )?(\S+\.md)", navigation)) - {"docs/pages.md"}

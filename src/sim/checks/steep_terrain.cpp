@@ -1,3 +1,4 @@
+// Ground steeper than cells represent, or so steep that steps become short.
 #include <fmt/format.h>
 
 #include <algorithm>
