@@ -239,11 +239,14 @@ class LayerReader {
   void add_feature(const OGRFeature& source) {
     Feature feature;
     read_attributes(source, feature);
-    auto named = feature.texts.find("name");
-    if (named == feature.texts.end()) {
-      named = std::ranges::find_if(feature.texts, [](const auto& each) { return lower_case(each.first) == "name"; });
+    const std::vector<std::string>& attributes = result_.attributes;
+    auto named = std::ranges::find(attributes, "name");
+    if (named == attributes.end()) {
+      named = std::ranges::find_if(attributes, [](const std::string& each) { return lower_case(each) == "name"; });
     }
-    feature.name = named == feature.texts.end() ? "" : named->second;
+    if (named != attributes.end() && feature.texts.contains(*named)) {
+      feature.name = feature.texts.at(*named);
+    }
     feature.title = fmt::format("{} {}{}", kind_ == Kind::polygons ? "polygon" : "line", result_.features.size() + 1,
                                 feature.name.empty() ? "" : " (" + config::shown(feature.name) + ")");
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
