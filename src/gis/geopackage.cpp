@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -70,7 +69,10 @@ void write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
     field.SetSubType(is_flag ? OFSTBoolean : OFSTNone);
     table->CreateField(&field);
   }
-  for (const MapLayer& layer : layers | std::views::filter(has_style)) {
+  for (const MapLayer& layer : layers) {
+    if (!has_style(layer)) {
+      continue;
+    }
     OGRFeature row(table->GetLayerDefn());
     for (const char* name : {"f_table_catalog", "f_table_schema", "styleSLD", "description", "owner"}) {
       row.SetField(name, "");

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <ranges>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -271,12 +271,10 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
     const double least = fitting_width(found.noise, found.spacing, cell);
     const auto width_at = [&](int k) { return std::max(least, (0.5 + 0.1 * k) * found.spacing); };
     const auto is_rough = [&](double width) { return remaining_slope(width) > largest_slope; };
-    const auto all = std::views::iota(0, steps);
-    found.width =
-        !is_rough(least)
-            ? least
-            : width_at(static_cast<int>(
-                  std::ranges::partition_point(all, [&](int k) { return is_rough(width_at(k)); }) - all.begin()));
+    std::array<int, steps> all{};
+    std::iota(all.begin(), all.end(), 0);
+    const auto smooth_enough = std::ranges::partition_point(all, [&](int k) { return is_rough(width_at(k)); });
+    found.width = !is_rough(least) ? least : width_at(static_cast<int>(smooth_enough - all.begin()));
   }
   found.remaining_slope = remaining_slope(found.width);
   found.apparent_friction = apparent_friction(found.remaining_slope);
