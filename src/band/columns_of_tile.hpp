@@ -17,6 +17,13 @@ struct Overlap {
   Value from[2];      // [m]
   Value to[2];        // [m]
   Value fraction[2];  // fraction of the box
+
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlap<double> of_lane(std::size_t lane) const {
+    return {extract(lower, lane),
+            {extract(from[0], lane), extract(from[1], lane)},
+            {extract(to[0], lane), extract(to[1], lane)},
+            {extract(fraction[0], lane), extract(fraction[1], lane)}};
+  }
 };
 
 template <class Value>
@@ -74,13 +81,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>
   });
 }
 
-// Extent of a particle's box in one of these columns. lane: of the particle.
-template <int Dim, class Value, class Side>
-THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side& side, std::size_t lane) {
+// Extent of a particle's box in one of these columns.
+template <int Dim, class Side>
+THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, double>& along, const Side& side) {
   Extent<Dim> own;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    own.from[a] = extract(along[a].from[side[a]], lane);
-    own.to[a] = extract(along[a].to[side[a]], lane);
+    own.from[a] = along[a].from[side[a]];
+    own.to[a] = along[a].to[side[a]];
   }
   return own;
 }

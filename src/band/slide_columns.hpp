@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "band/column_boxes.hpp"
 #include "band/slide_column_kernels.hpp"
 #include "exec/keyed_parts.hpp"
 
@@ -38,7 +39,7 @@ class SlideColumns {
   // Call after tiles have changed.
   void update(const std::uint64_t* tile_keys, std::size_t tiles) {
     parts_.list(tiles * columns_per_tile<Dim>, KeyOfColumn<Dim>{tile_keys});
-    parts_.index_places(column_);
+    parts_.places().index(column_);
     const std::size_t columns = parts_.keys().size();
     adjacent_.resize(columns * column_sides<Dim>);
     executor_.for_each(adjacent_.size(), FindNeighbourColumns<Dim>{parts_.keys().data(), columns, adjacent_.data()});
@@ -48,11 +49,13 @@ class SlideColumns {
     evaluate_at_new_columns();
   }
 
-  // Updates the columns from positions, volumes and masses. add_tiles(parts): writes the contributions of the particles
-  // of all tiles, by tile and place.
-  template <class AddTiles>
-  void sum(const AddTiles& add_tiles) {
-    add_tiles(parts_.parts());
+  // Updates the columns from positions, volumes and masses. tile_keys: of the last update. add_boxes(boxes): adds the
+  // boxes of particles (mpm/box_sums.hpp).
+  template <class AddBoxes>
+  void sum(const std::uint64_t* tile_keys, const AddBoxes& add_boxes) {
+    executor_.for_each(parts_.size(), exec::Fill<ColumnPart<Dim>>{parts_.parts(), {}});
+    add_boxes(ColumnBoxes<Dim>{
+        parts_.size() / columns_per_tile<Dim>, tile_keys, sizes_, cell_, {has_ground_}, parts_.parts()});
     parts_.sum();
     executor_.for_each(parts_.keys().size(),
                        FinishColumns<Dim>{parts_.sums(), adjacent_.data(), width_.values.data(),

@@ -3,7 +3,8 @@
 
 #include "band/slide_columns.hpp"
 #include "band/stages.hpp"
-#include "device/column_kernels.hpp"
+#include "device/box_sums.hpp"
+#include "device/pressure_load.hpp"
 #include "device/step_passes.hpp"
 
 namespace thawslide::device {
@@ -56,12 +57,8 @@ class BandStages {
   }
   void drain_pore_pressure(double dt) {
     const auto tables = passes_.cells.tables();
-    columns_.sum([&](band::ColumnPart<Dim>* parts) {
-      using InTile = SumInTile<Dim>;
-      passes_.backend.for_groups(
-          tables.tiles, InTile::at_a_time, InTile::bytes,
-          InTile{tables, passes_.particles.view(), sizes_.view(), passes_.model.cell, passes_.model.mapping, parts});
-    });
+    columns_.sum(tables.tile_keys,
+                 [&](const auto& boxes) { add_boxes(passes_.backend, tables, passes_.particles.view(), boxes); });
     if (model().needs_normal_load()) {
       passes_.run(passes_.linear(), AddPressureLoad<Columns>{
                                         columns_.template loading_by_tile<band::NumbersOfColumns>(tables.tile_keys)});

@@ -75,6 +75,7 @@ class Cells {
             blocks_about_block_.data()};
   }
   [[nodiscard]] std::vector<std::uint64_t> block_keys() const { return block_keys_.get(); }
+  [[nodiscard]] std::vector<std::uint64_t> tile_keys() const { return tile_keys_.get(); }
   // True if the last update changed the blocks, and hence their numbers.
   [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
 

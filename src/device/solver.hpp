@@ -13,6 +13,9 @@
 #include "mpm/particle_view.hpp"
 #include "terrain/basal_law.hpp"
 
+namespace thawslide::band {
+struct MapSample;
+}  // namespace thawslide::band
 namespace thawslide::device {
 
 // Error of a device. The message states which operation failed.
@@ -36,8 +39,8 @@ class Solver {
   virtual band::StepExtremes extremes() = 0;
   // Reduction over the particles after a step.
   virtual AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) = 0;
-  // Sums for maps (3D only).
-  virtual void sample_map(const mpm::MapCells& cells, MapSample& sample) = 0;
+  // Sums for maps, valid until the next call; null in 2D.
+  virtual const band::MapSample* sample_map(const mpm::MapCells& cells) = 0;
   // Particle at the front. mass: total mass of the particles [kg].
   virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) = 0;
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.

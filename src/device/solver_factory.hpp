@@ -21,7 +21,6 @@ template <int Dim>
 struct StepSums;
 template <int Dim>
 struct HostCallbacks;
-struct MapSample;
 
 // Copies `count` particles to a device and creates the solver there.
 template <int Dim>

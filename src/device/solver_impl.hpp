@@ -23,7 +23,7 @@ class SolverImpl final : public Solver<Dim> {
   }
   band::StepExtremes extremes() override { return step_.extremes(); }
   AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) override { return step_.reduce(reduction); }
-  void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
+  const band::MapSample* sample_map(const mpm::MapCells& cells) override { return step_.sample_map(cells); }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override { return step_.front(path, mass); }
   std::vector<Vector<double, Dim>> escaped_positions() override { return step_.escaped_positions(); }
   void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) override {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <variant>
 
+#include "band/map_stage.hpp"
 #include "device/band_stages.hpp"
 #include "device/contact_passes.hpp"
 #include "device/escape_check.hpp"
-#include "device/maps.hpp"
 #include "device/position_kernels.hpp"
 #include "device/reductions.hpp"
 #include "mpm/body_contact.hpp"
@@ -44,7 +44,8 @@ class Step {
       : passes_(backend, model, particles, count, callbacks.ground),
         sums_(backend, 1),
         band_(passes_, callbacks, sums_.data()),
-        maps_(backend, model.cell, model.half_sizes),
+        maps_(backend, model.cell),
+        sizes_of_boxes_(backend, model.half_sizes, model.cell),
         bed_(callbacks.bed) {
     if (model.band_columns) {
       band_columns_.emplace(backend, *model.band_columns, model.cell, model.motion.gravity);
@@ -99,10 +100,16 @@ class Step {
   std::vector<Vector<double, Dim>> escaped_positions() {
     return escape_check_.indices(passes_, escape_kernel(), sums_.get(0).escapes);
   }
-  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
+  const band::MapSample* sample_map([[maybe_unused]] const mpm::MapCells& cells) {
     if constexpr (Dim == 3) {
-      sample.segments = band_columns_ ? band_columns_->summaries() : std::vector<band::SegmentBelow>();
-      maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), sample);
+      return &maps_.sample(
+          cells, [this] { return passes_.cells.tile_keys(); }, sizes_of_boxes_.view(),
+          band_columns_ ? &*band_columns_ : nullptr,
+          [this](const auto& boxes) {
+            add_boxes(passes_.backend, passes_.cells.tables(), passes_.particles.view(), boxes);
+          });
+    } else {
+      return nullptr;
     }
   }
 
@@ -292,7 +299,8 @@ class Step {
   exec::Array<Sums, Backend> sums_;
   exec::Array<double, Backend> force_of_walls_{passes_.backend, 1};  // of a section, along x [N]
   BandStages<Backend, Shape, Dim> band_;
-  Maps<Backend> maps_;
+  band::MapStage<Backend> maps_;
+  BodySizes<Backend> sizes_of_boxes_;                              // half sizes of particles [m]
   std::optional<band::BasalSegments<Backend, Dim>> band_columns_;  // none unless the band consists of columns
   terrain::Bed<Dim>* bed_;                                         // on the CPU; null without an erodible bed
   exec::Array<double, Backend> column_heights_{passes_.backend};

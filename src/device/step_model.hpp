@@ -69,11 +69,4 @@ struct HostCallbacks {
   terrain::Bed<Dim>* bed = nullptr;  // erodible, on the CPU; null if there is none
 };
 
-// Sums for maps after a step (3D only), and basal segments.
-struct MapSample {
-  std::vector<std::uint64_t> keys;           // of cells below the active tiles, ascending (mpm::map_cell_key)
-  std::vector<mpm::MapSums> sums;            // by key
-  std::vector<band::SegmentBelow> segments;  // empty without band columns
-};
-
 }  // namespace thawslide::device

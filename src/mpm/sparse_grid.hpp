@@ -81,6 +81,16 @@ class SparseGrid {
   [[nodiscard]] BlockTables<Dim> block_tables() const {
     return {blocks_.size(), blocks_.data(), blocks_about_block_.data()};
   }
+  // Copies the keys of the tiles; returns true if they differ from those before.
+  bool copy_tile_keys(std::vector<std::uint64_t>& keys) const {
+    if (std::equal(keys.begin(), keys.end(), tiles_.begin(), tiles_.end(),
+                   [](std::uint64_t key, const OccupiedTile& tile) { return key == tile.key; })) {
+      return false;
+    }
+    keys.resize(tiles_.size());
+    std::transform(tiles_.begin(), tiles_.end(), keys.begin(), [](const OccupiedTile& tile) { return tile.key; });
+    return true;
+  }
   // Tables for kernels, without the keys of particles; valid until the next change of the grid or of `memory`.
   [[nodiscard]] TileTables<Dim> tables(TableMemory& memory) const;
 

@@ -157,8 +157,8 @@ class Simulation {
   // Particle at the front of a mass along a line, or along the x axis if the line has no segments. At least one
   // particle must exist.
   [[nodiscard]] mpm::PathSample front(const MovedMass& mass, const LineView& line = {}) const;
-  // Map sums of a step on a device; null after a step on the CPU.
-  [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const {
+  // As Solver::sample_map.
+  [[nodiscard]] const band::MapSample* sample_map(const mpm::MapCells& cells) const {
     return solver().sample_map(cells);
   }
   // Nodes of a step on the CPU.

@@ -7,12 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "band/segment_step.hpp"
+#include "band/map_stage.hpp"
 #include "base/key_index.hpp"
 #include "base/raster.hpp"
-#include "mpm/body_sizes.hpp"
 #include "mpm/map_sums.hpp"
-#include "mpm/sparse_grid.hpp"
 #include "sim/maps/covered_area.hpp"
 #include "sim/maps/map_cell.hpp"
 #include "sim/maps/map_grid.hpp"
@@ -22,33 +20,21 @@ namespace thawslide::sim {
 
 enum class MapExtent { whole_grid, slide };
 
-using band::SegmentBelow;
-
 // Accumulates particle volume, mass and momentum in the cells below each box, weighted by the fraction of the box over
 // each cell. The sum of thickness times cell area equals the particles' volume: a box that extends beyond the grid
-// counts entirely to the cells at its edge. Sums are formed by stacks of the background grid's tiles, in an order
-// defined by the tiles. Results therefore depend neither on threads nor on the particles' places in memory. Memory and
-// work scale with the slide's extent.
+// counts entirely to the cells at its edge (band/map_stage.hpp). Memory and work scale with the slide's extent.
 class FlowMaps {
  public:
-  using Grid = mpm::SparseGrid<3>;
-  using Particles = mpm::Particles<3>;
-
   // origin: of the particles' positions [m]; half_sizes: of particles by body [m]; arrival_thickness: of the maps [m].
   // Particle centres must lie over the map grid. drawn: the releases; if unknown, the initially covered area follows
   // from the thickness there.
   FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
            double arrival_thickness, DrawnArea drawn = {});
 
-  // Samples the particles at a time [s], with the tiles and the order of the step that moved them. segments: of the
-  // base if the band consists of columns; they then supply heat and pressure in place of the particles.
-  void gather(const Grid& grid, const Particles& particles, double time,
-              const std::vector<SegmentBelow>* segments = nullptr);
-  // The same from sums over cells by key (mpm::map_cell_key) computed on a device.
-  void gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
-              const std::vector<SegmentBelow>* segments = nullptr);
-  // Sets the reference state at t = 0 for changes of elevation.
-  void start(const Grid& grid, const Particles& particles);
+  // Records the sums over cells() after a step that ended at a time [s].
+  void gather(const band::MapSample& sample, double time);
+  // The same at t = 0, the reference state for changes of elevation.
+  void start(const band::MapSample& sample);
 
   // Empties the current maps when no slide is left; maxima remain.
   void slide_left();
@@ -84,54 +70,38 @@ class FlowMaps {
   static constexpr auto tile_cells = static_cast<std::size_t>(edge) * edge;
 
   struct MapTile {
-    int column = 0, row = 0;  // of the first cell
-    bool active = false;
-    std::array<mpm::ColumnSums, tile_cells> sums;
-    std::array<mpm::BandSums, tile_cells> band;
+    int column = 0, row = 0;                      // of the first cell
+    std::array<std::int32_t, tile_cells> number;  // of the cell in the sample; absent if particles do not reach it
     std::array<MapCell, tile_cells> cells;
+
+    MapTile() { number.fill(KeyIndex::absent); }
   };
-  // Vertical stack of tiles of the background grid, with the map tiles that its particles may reach.
-  struct Stack {
-    std::uint32_t first, last;   // places_[first .. last-1]
-    int tile_x, tile_y, across;  // window of map tiles: first tile, width
-    int deep;                    // height of the window
-    std::size_t window;          // first tile of the window in window_tiles_
-  };
-  // Position of a tile of the background grid in the stacks.
-  struct TileIndex {
-    std::uint64_t colour, stack;
-    std::uint32_t tile;
+  struct CellPlace {
+    MapTile* tile;
+    std::size_t index;
+
+    [[nodiscard]] MapCell& cell() const { return tile->cells[index]; }
+    [[nodiscard]] std::int32_t& number() const { return tile->number[index]; }
   };
 
   static std::uint64_t tile_key(int tile_x, int tile_y);
   static std::size_t index_in_tile(int column, int row);
   MapTile& touch(int tile_x, int tile_y);
-  void find_stacks(const Grid& grid);
-  void create_tiles(const Grid& grid);
-  void set_window(const Grid& grid, Stack& stack);
-  void mark_active();
-  void update_cells(double time, const std::vector<SegmentBelow>* segments);
-  void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
-  void add_segment(const SegmentBelow& segment);
-  void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
-               const Stack& stack);
+  [[nodiscard]] CellPlace place_of(int column, int row);
+  void number_cells(const std::vector<std::uint64_t>& keys);
+  void add_segment(const band::SegmentBelow& segment);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
   [[nodiscard]] CoveredCells cells_under(const MapKind& thickness, double least) const;
 
   MapGrid map_grid_;
   mpm::MapCells cells_;
-  mpm::BodySizes sizes_;      // of particles [m]
   double arrival_thickness_;  // [m]
   DrawnArea drawn_;
-  bool band_is_of_particles_ = true;
   KeyIndex tile_index_;
-  std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide reached them
-  std::vector<MapTile*> active_, formerly_active_;  // within reach of particles
-  std::vector<std::uint64_t> seen_;      // keys of the background grid's tiles for which the members below are valid
-  std::vector<TileIndex> tile_indices_;  // by colour, then by stack, then upwards
-  std::vector<Stack> stacks_;
-  std::vector<std::size_t> colours_;  // first stack of each colour, and the end; stacks of a colour share no map cell
-  std::vector<MapTile*> window_tiles_;
+  std::vector<std::unique_ptr<MapTile>> tiles_;  // in the order in which the slide reached them
+  std::vector<std::uint64_t> keys_;              // of the last sample
+  std::vector<CellPlace> reached_;               // by key; after a restart, the cells that were not empty
+  std::vector<mpm::MapSums> sums_;               // by key, with those of band columns
 };
 
 template <class Visit>

@@ -43,12 +43,15 @@ struct MapCell {
     return std::sqrt(velocity_x * velocity_x + velocity_y * velocity_y + velocity_z * velocity_z);
   }
 
+  // Nothing lies over the cell; its maxima remain.
+  void clear() { thickness = velocity_x = velocity_y = velocity_z = 0.0; }
+
   // Records the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: thinner flow is not recorded,
   // because its speed and pressure are those of single particles.
   void update(const mpm::ColumnSums& sums, const mpm::BandSums& band, double area, double arrival_thickness,
               double time) {
     if (!(sums.volume > 0.0)) {
-      thickness = velocity_x = velocity_y = velocity_z = 0.0;
+      clear();
       return;
     }
     thickness = thickness_of(sums.volume, area);

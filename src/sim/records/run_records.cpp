@@ -99,7 +99,7 @@ RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& si
 template <int Dim>
 void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
-    maps_->start(simulation.grid(), simulation.particles());
+    maps_->start(*simulation.sample_map(maps_->cells()));
     add_to_path(simulation, simulation.sum_over_particles(mpm::MomentsOfParticle{}));
     tops_at_start_ = highest_points(simulation);
   }
@@ -108,23 +108,14 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
-    const auto below = [&](const std::vector<SegmentBelow>& segments) {
-      return simulation.has_band_columns() ? &segments : nullptr;
-    };
-    if (const device::MapSample* sample = simulation.sample_map(maps_->cells())) {
-      const double mass = std::accumulate(sample->sums.begin(), sample->sums.end(), 0.0,
-                                          [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
-      const mpm::MassMoments moments = simulation.sum_over_particles(mpm::MomentsOfParticle{});
-      THAWSLIDE_ASSERT(std::abs(mass - moments.mass) <= round_off * moments.mass,
-                       "{} kg of {} kg lie over map cells that particles may reach", mass, moments.mass);
-      maps_->gather(sample->keys, sample->sums, simulation.time(), below(sample->segments));
-      add_to_path(simulation, moments);
-      return;
-    }
-    maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below(simulation.segments_below()));
-    if (!path_given_) {
-      add_to_path(simulation, simulation.sum_over_particles(mpm::MomentsOfParticle{}));
-    }
+    const band::MapSample& sample = *simulation.sample_map(maps_->cells());
+    const double mass = std::accumulate(sample.sums.begin(), sample.sums.end(), 0.0,
+                                        [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
+    const mpm::MassMoments moments = simulation.sum_over_particles(mpm::MomentsOfParticle{});
+    THAWSLIDE_ASSERT(std::abs(mass - moments.mass) <= round_off * moments.mass,
+                     "{} kg of {} kg lie over map cells that particles may reach", mass, moments.mass);
+    maps_->gather(sample, simulation.time());
+    add_to_path(simulation, moments);
   }
 }
 

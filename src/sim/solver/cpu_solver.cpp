@@ -6,6 +6,7 @@
 #include "band/new_particles.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
+#include "mpm/box_sums.hpp"
 #include "mpm/front_stage.hpp"
 #include "mpm/step_sequence.hpp"
 #include "mpm/sum_over_particles.hpp"
@@ -220,6 +221,20 @@ mpm::PathSample CpuSolver<Dim>::front(const mpm::Transformation<Dim>& path, doub
   exec::Cpu cpu;
   const std::vector<std::uint32_t>& order = slide_.grid.order();
   return mpm::Front<exec::Cpu, Dim>(cpu).find(path, mass, mpm::view_of(slide_.particles), order.data(), order.size());
+}
+
+template <int Dim>
+const band::MapSample* CpuSolver<Dim>::sample_map([[maybe_unused]] const mpm::MapCells& cells) const {
+  if constexpr (Dim == 3) {
+    if (slide_.grid.copy_tile_keys(tiles_of_maps_)) {
+      maps_.forget_tiles();
+    }
+    return &maps_.sample(
+        cells, [this] { return tiles_of_maps_; }, half_sizes_.view(), base_.columns ? &*base_.columns : nullptr,
+        [this](const auto& boxes) { mpm::add_boxes(slide_.grid, slide_.particles, boxes); });
+  } else {
+    return nullptr;
+  }
 }
 
 template <int Dim>

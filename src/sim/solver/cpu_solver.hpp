@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "band/flow_depth.hpp"
+#include "band/map_stage.hpp"
 #include "band/stages_on_cpu.hpp"
 #include "base/clocks.hpp"
 #include "mpm/body_contact.hpp"
@@ -42,7 +43,7 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) const override;
   [[nodiscard]] band::StepExtremes extremes() const override;
   [[nodiscard]] mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const override;
-  [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& /*cells*/) const override { return nullptr; }
+  [[nodiscard]] const band::MapSample* sample_map(const mpm::MapCells& cells) const override;
   [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override;
   void copy_particles_back() const override {}
   void copy_columns_back() const override {}
@@ -106,7 +107,10 @@ class CpuSolver final : public Solver<Dim> {
   mpm::BodyContact<exec::Cpu, Dim> body_contact_{cpu_};
   mpm::TableMemory tables_;
   terrain::ContactOnCpu<Dim> contact_;
-  std::optional<ContactOfBodies> between_bodies_;  // of the step
+  mutable band::MapStage<exec::Cpu> maps_{cpu_, setup_.cell()};
+  mutable std::vector<std::uint64_t> tiles_of_maps_;                           // their keys
+  mpm::BodySizes half_sizes_{setup_.model.motion.sizes.times(setup_.cell())};  // of particles [m]
+  std::optional<ContactOfBodies> between_bodies_;                              // of the step
   std::vector<std::uint64_t> blocks_of_nodes_;
   double band_thickness_ = -1.0;  // of the last scaling [m]
   double rescaling_heat_ = 0;     // added since the last complete step [J]

@@ -176,12 +176,13 @@ class DeviceSolver final : public Solver<Dim> {
     return found;
   }
 
-  [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const override {
+  [[nodiscard]] const band::MapSample* sample_map(const mpm::MapCells& cells) const override {
     if (!session_.solver) {
-      return nullptr;
+      return host_.sample_map(cells);
     }
-    call([&] { session_.solver->sample_map(cells, session_.map_sample); });
-    return &session_.map_sample;
+    const band::MapSample* sample = nullptr;
+    call([&] { sample = session_.solver->sample_map(cells); });
+    return sample;
   }
 
   [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override {
@@ -225,7 +226,6 @@ class DeviceSolver final : public Solver<Dim> {
   struct Session {
     std::unique_ptr<device::Solver<Dim>> solver;  // null while the next step begins with the particles of the host
     StepSums<Dim> sums;                           // of the last step
-    device::MapSample map_sample;                 // of the last step
     double time = 0;                              // at the beginning of the step [s]
     MomentumOfNodes nodes;                        // as last fetched
     bool has_stepped = false;                     // since the solver was created

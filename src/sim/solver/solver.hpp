@@ -11,9 +11,9 @@
 #include "mpm/front.hpp"
 #include "terrain/basal_law.hpp"
 
-namespace thawslide::device {
+namespace thawslide::band {
 struct MapSample;
-}  // namespace thawslide::device
+}  // namespace thawslide::band
 namespace thawslide::mpm {
 struct MapCells;
 }  // namespace thawslide::mpm
@@ -59,8 +59,8 @@ class Solver {
   [[nodiscard]] virtual band::StepExtremes extremes() const = 0;
   // mass: of the bodies of the path [kg].
   [[nodiscard]] virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const = 0;
-  // Sums for maps; null on the CPU, where maps read the particles.
-  [[nodiscard]] virtual const device::MapSample* sample_map(const mpm::MapCells& cells) const = 0;
+  // Sums for maps, valid until the next call; null in 2D.
+  [[nodiscard]] virtual const band::MapSample* sample_map(const mpm::MapCells& cells) const = 0;
 
   // Records of Momentum of the nodes of the last step; empty before the first step with mechanics.
   [[nodiscard]] virtual MomentumOfNodes momentum_of_nodes() const = 0;

@@ -49,7 +49,7 @@ class ForwardingSolver : public device::Solver<Dim> {
   }
   band::StepExtremes extremes() override { return steps_->extremes(); }
   device::AnySums<Dim> reduce(const device::AnyReduction<Dim>& reduction) override { return steps_->reduce(reduction); }
-  void sample_map(const mpm::MapCells& cells, device::MapSample& sample) override { steps_->sample_map(cells, sample); }
+  const band::MapSample* sample_map(const mpm::MapCells& cells) override { return steps_->sample_map(cells); }
   mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override {
     return steps_->front(path, mass);
   }

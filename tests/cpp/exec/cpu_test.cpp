@@ -59,7 +59,7 @@ TEST(KeyedParts, AreAddedInTheOrderOfTheirPlaces) {
   }
   parts.sum();
   Array<std::int32_t, Cpu> index(cpu);
-  parts.index_places(index);
+  parts.places().index(index);
   const std::vector<std::uint64_t> keys = parts.keys().get();
   std::vector<Word> expected(keys.size());
   for (std::size_t k = 0; k < places; ++k) {

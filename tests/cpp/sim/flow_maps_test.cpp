@@ -40,6 +40,11 @@ FlowMaps maps_of(const Simulation<3>& simulation, const MapGrid& map_grid, doubl
           arrival_thickness};
 }
 
+void start(FlowMaps& maps, const Simulation<3>& simulation) { maps.start(*simulation.sample_map(maps.cells())); }
+void gather(FlowMaps& maps, const Simulation<3>& simulation) {
+  maps.gather(*simulation.sample_map(maps.cells()), simulation.time());
+}
+
 const MapKind& kind(const std::string& name) {
   for (const MapKind& map : map_kinds()) {
     if (map.name == name) {
@@ -51,7 +56,7 @@ const MapKind& kind(const std::string& name) {
 
 // Fractions of a box along an axis of ten cells.
 mpm::CellRange cells_below(double middle, double half) {
-  return mpm::cell_spans(Simd<double>(middle), Simd<double>(half), Simd<double>(0.5 / half), 10).of_lane(0);
+  return mpm::cell_spans(middle, half, 0.5 / half, 10).of_lane(0);
 }
 
 void expect_range(const mpm::CellRange& found, int first, const std::vector<double>& fractions) {
@@ -79,8 +84,8 @@ TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
   FlowMaps wide = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
   FlowMaps fine = maps_of(simulation, {-299.975, -299.975, 0.05, 0.05, 40000, 50000, ""});
   EXPECT_EQ(wide.bytes(), 0U);
-  wide.start(simulation.grid(), simulation.particles());
-  fine.start(simulation.grid(), simulation.particles());
+  start(wide, simulation);
+  start(fine, simulation);
   EXPECT_LE(wide.bytes(),
             5U * 16 * 16 * FlowMaps::bytes_of_cell());  // 60 x 20 cells are 4 x 2 tiles, not all of them near the slide
   EXPECT_GT(fine.bytes(), 10U * wide.bytes());
@@ -97,7 +102,7 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   const Simulation<3> simulation(slide_in_space());
   // Cells of 1.5 x 1 m starting at -5.25 m: along x, the box begins and ends in the middle of one.
   FlowMaps maps = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
-  maps.start(simulation.grid(), simulation.particles());
+  start(maps, simulation);
   int cells = 0;
   maps.for_cells([&](int, int row, const MapCell& cell) {
     ++cells;
@@ -130,12 +135,12 @@ TEST(FlowMaps, SumsEqualThoseOfTheParticlesOnAnyGrid) {
   std::vector<FlowMaps> maps;
   for (const MapGrid& grid : grids) {
     maps.push_back(maps_of(simulation, grid));
-    maps.back().start(simulation.grid(), simulation.particles());
+    start(maps.back(), simulation);
   }
   for (int k = 0; k < 50; ++k) {
     simulation.step(0.002);
     for (FlowMaps& map : maps) {
-      map.gather(simulation.grid(), simulation.particles(), simulation.time());
+      gather(map, simulation);
     }
     const double volume = volume_of(simulation.particles());
     for (const FlowMaps& map : maps) {
@@ -151,10 +156,10 @@ TEST(FlowMaps, CellsContainTheirFractionsOfAllBoxes) {
   for (const MapGrid& grid :
        {MapGrid{-4.1, -5.2, 0.13, 0.21, 500, 100, ""}, MapGrid{-4.0, -5.0, 0.7, 0.9, 100, 30, ""}}) {
     FlowMaps maps = maps_of(simulation, grid);
-    maps.start(simulation.grid(), simulation.particles());
+    start(maps, simulation);
     for (int k = 0; k < 15; ++k) {
       simulation.step(0.002);
-      maps.gather(simulation.grid(), simulation.particles(), simulation.time());
+      gather(maps, simulation);
     }
     const auto& particles = simulation.particles();
     const auto& origin = simulation.model().origin;
@@ -190,8 +195,8 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
   Simulation<3> simulation(slide_in_space("body.box.velocity=[5,0,0]"));
   FlowMaps maps = maps_of(simulation, {28.0, 5.0, 64.0, 20.0, 1, 1, ""});
   FlowMaps of_thin = maps_of(simulation, maps.map_grid(), 0.05);  // the cell's thickness is 72/1280 m
-  maps.start(simulation.grid(), simulation.particles());
-  of_thin.start(simulation.grid(), simulation.particles());
+  start(maps, simulation);
+  start(of_thin, simulation);
   const double area = 64.0 * 20.0;
   double speed = 0.0, flux = 0.0, pressure = 0.0, temperature = -HUGE_VAL, melt = 0.0, pore = -HUGE_VAL,
          time_of_pressure = -1.0;
@@ -224,8 +229,8 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
   record();
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
-    maps.gather(simulation.grid(), simulation.particles(), simulation.time());
-    of_thin.gather(simulation.grid(), simulation.particles(), simulation.time());
+    gather(maps, simulation);
+    gather(of_thin, simulation);
     record();
   }
   EXPECT_EQ(maps.covered_cells(0.1).area(), 0.0);
@@ -251,10 +256,10 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
 TEST(FlowMaps, ASlideThatMovesAwayLeavesEmptyCells) {
   Simulation<3> simulation(slide_in_space("body.box.velocity=[40,0,0]; basal.friction_angle=0.0"));
   FlowMaps maps = maps_of(simulation, {-3.75, -4.75, 0.5, 0.5, 128, 40, ""});
-  maps.start(simulation.grid(), simulation.particles());
+  start(maps, simulation);
   while (simulation.time() < 0.8) {
     simulation.step(0.002);
-    maps.gather(simulation.grid(), simulation.particles(), simulation.time());
+    gather(maps, simulation);
   }
   const double volume = volume_of(simulation.particles());
   EXPECT_NEAR(map_volume(maps), volume, 1e-12 * volume);
@@ -279,7 +284,7 @@ TEST(FlowMaps, RastersAreLocatedAtTheCells) {
   const Simulation<3> simulation(slide_in_space());
   FlowMaps maps = maps_of(simulation, {-3.5, -4.5, 1.0, 1.0, 64, 20, "a system"});
   EXPECT_TRUE(maps.raster(kind("max_thickness"), MapExtent::slide).empty());
-  maps.start(simulation.grid(), simulation.particles());
+  start(maps, simulation);
   const Raster slide = maps.raster(kind("max_thickness"), MapExtent::slide);
   EXPECT_EQ(slide.columns, 6);
   EXPECT_EQ(slide.rows, 4);
@@ -309,7 +314,7 @@ std::vector<double> state_after(const MapGrid& map_grid, int threads, int sortin
   Simulation<3> simulation(slide_in_space("body.box.velocity=[10,3,1]; body.box.max=[12.0, 11.0, 3.0]"));
   simulation.set_sorting_interval(sorting_interval);
   FlowMaps maps = maps_of(simulation, map_grid);
-  maps.start(simulation.grid(), simulation.particles());
+  start(maps, simulation);
   for (int k = 0; k < 60; ++k) {
     if (k == stop_at) {
       const std::vector<double> state = maps.state();
@@ -318,7 +323,7 @@ std::vector<double> state_after(const MapGrid& map_grid, int threads, int sortin
       EXPECT_EQ(std::memcmp(maps.state().data(), state.data(), state.size() * sizeof(double)), 0);
     }
     simulation.step(0.002);
-    maps.gather(simulation.grid(), simulation.particles(), simulation.time());
+    gather(maps, simulation);
   }
   EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   set_thread_count(threads_before);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "band/map_stage.hpp"
 #include "device/gpu.hpp"
 #include "measure.hpp"
 #include "sim/maps/path_line.hpp"
@@ -137,8 +138,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
   for (const auto& [along, height] : escapes) {
     numbers.insert(numbers.end(), {along, height});
   }
-  device::MapSample map;
-  steps.sample_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell}, map);
+  const band::MapSample& map = *steps.sample_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell});
   const auto moments = std::get<mpm::MassMoments>(steps.reduce(mpm::MomentsOfParticle{}));
   numbers.insert(numbers.end(), {moments.mass, moments.mass_x, moments.mass_y});
   for (const mpm::MapSums& of_cell : map.sums) {
