@@ -2,6 +2,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,11 @@ struct BandParameters : BandPhysics {
   bool current_masses = false;  // heat content uses masses from the current porosity and volume, as published
   std::vector<double> hydraulic_conductivity;  // by material [m/s]
 
+  // True if the scaling of particles changes: with the thickness of the band [m] since the last call, as particles
+  // enter or leave the band, or with the slope of the ground.
+  [[nodiscard]] bool scaling_changes(bool follows_ground, double thickness, double& last) const {
+    return region != BandRegion::all || follows_ground || std::exchange(last, thickness) != thickness;
+  }
   [[nodiscard]] bool has_seepage() const { return pressure && water_may_seep(*this, hydraulic_conductivity); }
 
   // Calls work(content) with the heat content law of the run.

@@ -44,9 +44,7 @@ class BandStages {
   void rescale(double time) {
     const double thickness = passes_.model.band_thickness(time);
     const bool follows_ground = passes_.model.mapping.has_ground;
-    const bool depends_on_position = model().region != band::BandRegion::all || follows_ground;
-    if (depends_on_position || thickness != band_thickness_) {
-      band_thickness_ = thickness;
+    if (model().scaling_changes(follows_ground, thickness, band_thickness_)) {
       band::stages::rescale_band(passes_, model(), follows_ground, thickness, &sums_->band_rescale);
     }
   }

@@ -131,7 +131,7 @@ class Step {
     find_cells();
   }
   void rescale_band(double time) {
-    if (passes_.model.rescales_band) {
+    if (!passes_.model.contact.band_columns) {
       band_.rescale(time);
     }
   }

@@ -47,7 +47,6 @@ struct StepModel {
   std::function<double(double time)> band_thickness;  // [m]; 0: no band, xi = 1
   std::optional<band::ColumnsModel> band_columns;     // empty unless the band consists of columns
   band::SegmentsState<Dim> segments;                  // with columns, at `time`
-  bool rescales_band = true;                          // off: scaling is constant
 
   [[nodiscard]] bool has_band() const { return band.heat || band.pressure; }
 };

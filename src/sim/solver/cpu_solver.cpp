@@ -104,12 +104,9 @@ template <int Dim>
 void CpuSolver<Dim>::rescale_band(double time) {
   const Model<Dim>& model = setup_.model;
   const double thickness = setup_.band_thickness(time);
-  const bool depends_on_position = model.band.region != band::BandRegion::all || model.ground;
-  if (model.contact.band_columns || !(depends_on_position || thickness != band_thickness_)) {
-    return;
+  if (!model.contact.band_columns && model.band.scaling_changes(model.ground != nullptr, thickness, band_thickness_)) {
+    rescaling_heat_ += band_stages().rescale_band(thickness);
   }
-  band_thickness_ = thickness;
-  rescaling_heat_ += band_stages().rescale_band(thickness);
 }
 
 template <int Dim>

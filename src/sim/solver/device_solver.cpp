@@ -48,7 +48,6 @@ device::StepModel<Dim> step_model_of(const config::Case& parameters, const Model
   device.band.heat = model.band.heat && !has_columns;
   device.starts = clock.step_number == 0;
   device.time = clock.time;
-  device.rescales_band = !has_columns;
   device.band_thickness = [thickness = parameters.band.thickness](double time) { return thickness.at(time); };
   return device;
 }

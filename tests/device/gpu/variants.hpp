@@ -89,7 +89,8 @@ device::StepModel<Dim> model_of(Variant variant) {
       model.moves = false;
       break;
     case Variant::columns:  // as in sim::step_model_of
-      model.band.heat = model.band.pressure = model.rescales_band = false;
+      model.band.heat = model.band.pressure = false;
+      model.contact.band_columns = true;
       model.band_columns.emplace();
       model.band_columns->column = physics::make_model();
       model.band_columns->body_temperature = model.band_columns->ground_temperature = -2.0;
