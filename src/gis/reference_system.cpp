@@ -63,16 +63,10 @@ HeightUnit height_unit_of(const OGRSpatialReference* reference) {
 
 namespace {
 
-// Zone of the Universal Transverse Mercator projection: 6 degrees wide, numbered from 180 degrees west (Snyder 1987,
-// Map projections: a working manual, p. 57).
+// Zone of the Universal Transverse Mercator projection (Snyder 1987, Map projections: a working manual, p. 57).
 int utm_number(double longitude, double latitude) {
   const int zone = std::clamp(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 1, 60);
   return (latitude >= 0.0 ? 32600 : 32700) + zone;
-}
-
-double two_digits(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::round(value / unit) * unit;
 }
 
 // Command that converts a raster to metres, in the UTM zone of the raster's centre.
@@ -81,7 +75,8 @@ std::string warp_command(const MapExtent& raster, const std::string& source_opti
   const int number = utm_number(longitude, latitude);
   const std::filesystem::path file(raster.file);
   const std::filesystem::path target = file.parent_path() / fmt::format("{}-EPSG{}.tif", file.stem().string(), number);
-  const double cell = two_digits(raster.cell * metres_per_unit);
+  const double size = raster.cell * metres_per_unit, digit = last_digit(size, 2),
+               cell = std::round(size / digit) * digit;
   return fmt::format("gdalwarp {}-t_srs EPSG:{} -tr {:g} {:g} -r bilinear {} {}", source_option, number, cell, cell,
                      shell_quote(file.string()), shell_quote(target.string()));
 }
@@ -145,9 +140,8 @@ std::array<double, 2> middle_in_degrees(const MapExtent& raster, const std::stri
       raster.file, unit, name_of(wkt), remedy);
 }
 
-// Principal point scales: the smallest and the largest length on the map over the length on the ellipsoid, by direction
-// (Snyder 1987, Map projections: a working manual, USGS Professional Paper 1395, pp. 20-26). Their ratio is that of the
-// axes of Tissot's indicatrix, which measures the angular distortion.
+// Extreme lengths on the map over those on the ellipsoid, by direction: axes of Tissot's indicatrix (Snyder 1987, Map
+// projections: a working manual, USGS Professional Paper 1395, pp. 20-26).
 struct PointScales {
   double smallest = 1.0, largest = 1.0;
   double x = 0.0, y = 0.0;  // on the map [m]
@@ -158,8 +152,7 @@ struct PointScales {
   }
 };
 
-// Scales at the corner of the extent with the largest error, by central differences. `wkt`: a projection in metres.
-// Without distortion if no corner lies on the ellipsoid.
+// Scales at the corner with the largest error, in a projection in metres; 1 if no corner is on the ellipsoid.
 PointScales worst_scales(const std::string& wkt, const Rectangle& extent) {
   constexpr double step = 10.0;  // m
   const OGRSpatialReference reference = reference_from_wkt(wkt);

@@ -1,7 +1,6 @@
 #include "gis/release.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -12,14 +11,12 @@
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/sampling.hpp"
-#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-// Ground points around an extent, including those outside the points that were read: missing ground is reported later,
-// for points that need it.
+// Ground points around an extent, whether read or not: missing ground is reported later, for points that need it.
 Raster points_about(const Rectangle& extent, double taper, const Raster& ground) {
   const auto along = [&](double low, double high, double first, double cell, double& new_first, int& count) {
     const int margin = 2 + taper_reach(taper, cell);
@@ -81,8 +78,7 @@ void check_taper(const ReleaseInput& input, const Rectangle& extent) {
   check("the domain", input.domain, "widen grid.min and grid.max");
 }
 
-// A release smaller than a cell would become much thinner, because its volume is distributed over the cells of DEM
-// points.
+// A release smaller than a cell would become thinner, as its volume is distributed over the cells of DEM points.
 void check_size(const ReleaseInput& input, double size) {
   const double cell = input.ground.raster.cell_x * input.ground.raster.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
@@ -117,8 +113,7 @@ Rectangle extent_of_positive(const ReleaseInput& input, const Raster& source) {
   return *extent;
 }
 
-// Means of the height of a finer surface above the ground, over the fraction of each cell in which the surface is
-// known.
+// Means of the height of a finer surface above the ground, over the fraction of each cell in which it is known.
 Raster finer_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = averaged(above_ground(surface, ground), ground, Missing::nothing);
   Raster known = surface;
@@ -132,8 +127,8 @@ Raster finer_above(const Raster& surface, const Raster& ground, double tolerance
   return above;
 }
 
-// Height of another surface above the ground's points. Points at its rim are weighted by the heights above ground at
-// the surface's own points, because its elevations there belong to other positions.
+// Height of a coarser surface above the ground's points. Points at its rim are weighted by heights at the surface's
+// points, because its elevations there belong to other positions.
 Raster coarser_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = above_ground(sampled(surface, ground, Missing::unknown), ground);
   const Raster fractions = sampled(above_ground(surface, ground), ground, Missing::zero);
@@ -273,9 +268,6 @@ constexpr MappedField mapped_fields[] = {
 
 // Means of the polygons' values over each point's cell; NaN outside the polygons.
 Raster from_attribute(const ReleaseArea& area, const std::string& attribute, const std::string& key) {
-  if (area.is_raster()) {
-    throw UserError("a raster gives the release: it has no attributes. Name a raster of the quantity, or a number.");
-  }
   Raster sum = area.fraction.filled(0.0), weight = sum;
   for (const ValuedArea& part : areas_by_value(area.layer, attribute, key)) {
     const Raster fraction = coverage_of(part.polygons, area.fraction);
@@ -316,9 +308,8 @@ Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField
   return averaged(part, area.fraction).mean;
 }
 
-// Initial fields from maps by key of the body, at the points of `thickness`, which are among those of the area's
-// `fraction`. Points outside the release have the value of the nearest one within. Throws UserError if a value within
-// the release is missing or out of range.
+// Initial fields from maps by key, at the points of `thickness`, which are among those of the area's `fraction`. Points
+// outside the release have the value of the nearest one within. Throws UserError for a missing or invalid value.
 std::map<std::string, Raster> fields_of(const ReleaseInput& input, const ReleaseArea& area, const Raster& thickness) {
   std::map<std::string, Raster> fields;
   for (const MappedField& what : mapped_fields) {

@@ -84,7 +84,7 @@ class ThicknessMaker {
   Raster thickness_before_taper() const {
     switch (body_.thickness.from) {
       case MapValue::From::number:
-        return of_number();
+        return times_fraction(area_.fraction.filled(body_.thickness.number));
       case MapValue::From::attribute:
         return of_attribute();
       case MapValue::From::raster:
@@ -96,16 +96,6 @@ class ThicknessMaker {
       return sampled(area_.source, area_.fraction, Missing::zero);
     }
     return body_.thickness.from == MapValue::From::raster ? of_raster() : of_surface();
-  }
-
-  Raster of_number() const {
-    if (!(body_.thickness.number > 0.0)) {
-      input_.fail("thickness",
-                  "the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or to {{ attribute = "
-                  "\"thickness\" }} of the polygons, {{ raster = FILE }} or {{ surface = FILE }}.",
-                  body_.thickness.number);
-    }
-    return times_fraction(area_.fraction.filled(body_.thickness.number));
   }
 
   Raster of_attribute() const {
@@ -145,8 +135,7 @@ class ThicknessMaker {
     return times_fraction(map);
   }
 
-  // Raster cells across an outline may share an area with a ground cell beyond it; this volume is distributed to the
-  // other cells.
+  // Raster cells across an outline may share an area with a ground cell beyond it; the others receive this volume.
   Raster of_finer_raster(const Raster& source) const {
     const CoveredRaster part = covered_part(source, area_.polygons);
     require_not_negative(part.values, &part.fraction);
@@ -163,16 +152,6 @@ class ThicknessMaker {
   }
 
   Raster of_surface() const {
-    if (body_.placement == config::Placement::cut) {
-      input_.fail(
-          "placement",
-          "a thickness from a surface before the slide to the DEM requires that the DEM is the sliding surface: "
-          "nothing is cut out of it. Set \"on_top\".");
-    }
-    if (body_.thickness_along == config::ThicknessAlong::normal) {
-      input_.fail("thickness_along",
-                  "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
-    }
     const Raster surface = read_thickness_map(), &measured = input_.ground.as_measured();
     const Raster above =
         is_finer(surface, area_.fraction)

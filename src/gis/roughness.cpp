@@ -14,7 +14,7 @@
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
-#include "gis/point_window.hpp"
+#include "base/table.hpp"
 #include "gis/sampling.hpp"
 
 namespace thawslide::gis {
@@ -28,18 +28,16 @@ constexpr double rough_fraction = 0.86;    // quantile of the tiles: noise that 
 constexpr double striped_fraction = 0.25;  // the same for noise of whole rows or columns, which is due to the survey
 constexpr std::size_t least_of_tile = 16;  // minimum number of deviations or slopes
 
-// Deviation of the centre of nine points in a line from their best-fit parabola: weights of the centre and of the
-// neighbours 1 to 4 points away (Savitzky and Golay 1964: 59, 54, 39, 14, -21 over 231 give the parabola's value
-// there).
+// Deviation of the centre of nine points from their best-fit parabola: weights of the centre and of neighbours 1 to 4
+// points away (Savitzky and Golay 1964).
 constexpr std::array<double, 5> deviation_weights{172.0 / 231.0, -54.0 / 231.0, -39.0 / 231.0, -14.0 / 231.0,
                                                   21.0 / 231.0};
 
-// For white noise with rms 1: the fit at the centre has the weight 59/231, and a least-squares fit leaves 1 minus that
-// of the variance.
+// For white noise with rms 1: a least-squares fit leaves 1 minus the weight of the centre, 59/231, of the variance.
 const double rms_of_deviation = std::sqrt(deviation_weights[0]);
 
-// Width of the Gaussian that separates short waves from long ones, relative to the distance that resolves them, and the
-// number of times its result is subtracted. Waves of length L keep the fraction (1 - exp(-2 pi^2 s^2 / L^2))^3.
+// Width of the Gaussian that separates short waves, relative to the distance that resolves them, and times it is
+// subtracted. Waves of length L keep the fraction (1 - exp(-2 pi^2 s^2 / L^2))^3.
 constexpr double width_of_short_waves = 2.2;
 constexpr int times_of_short_waves = 3;
 constexpr double length_of_half = 7.8;  // L relative to the same distance
@@ -48,9 +46,8 @@ double resolving(double spacing, double cell) { return std::max(spacing, 0.5 * c
 
 double spacing_of(const Raster& raster) { return std::sqrt(raster.cell_x * raster.cell_y); }
 
-// Variance of a virtual filter that represents the effect of a cell on bumps without a filter. 1/(4 sqrt(pi)) makes the
-// slope of the triangles between the points, 2 rms / spacing, equal to that of noise; 0.0225 follows from the friction
-// measured with points half a cell apart.
+// Variance of a virtual filter for the effect of a cell on bumps. 1/(4 sqrt(pi)) makes the slope of triangles between
+// points, 2 rms / spacing, that of noise; 0.0225 follows from the friction measured with points half a cell apart.
 double variance_of_cell(double spacing, double cell) {
   return spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
 }
@@ -129,9 +126,8 @@ std::array<double, 2> noise_of_tile(const Raster& raster, const Tile& part) {
   return {found[0] / (median_of_unit * rms_of_deviation), found[1] / (median_of_unit * rms_of_deviation)};
 }
 
-// Rms slope, from the medians in four directions. The mean of the minimum and the maximum is their geometric one, with
-// the maximum limited to twice the minimum. Features with little slope along themselves, such as a thalweg, a crest or
-// a cliff, are not bumps.
+// Rms slope: geometric mean of the extremes of medians in four directions, the maximum limited to twice the minimum,
+// because a thalweg, a crest or a cliff is not a bump.
 double slope_of_tile(const Raster& raster, const Tile& part) {
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const Step& step : directions) {
@@ -219,17 +215,9 @@ double noise_slope(double rms, double spacing, double cell, double width) {
 }
 
 double apparent_friction(double slope) {
-  struct Measured {
-    double slope, friction;
-  };
-  constexpr std::array<Measured, 7> measured{
-      {{0.0, 0.0}, {0.03, 0.01}, {0.06, 0.025}, {0.11, 0.07}, {0.23, 0.20}, {0.28, 0.31}, {0.56, 0.76}}};
-  std::size_t k = 1;
-  while (k + 1 < measured.size() && slope > measured[k].slope) {
-    ++k;
-  }
-  const Measured &low = measured[k - 1], &high = measured[k];
-  return low.friction + (high.friction - low.friction) * (slope - low.slope) / (high.slope - low.slope);
+  static const Table measured({0.0, 0.03, 0.06, 0.11, 0.23, 0.28, 0.56, 10.0},
+                              {0.0, 0.01, 0.025, 0.07, 0.20, 0.31, 0.76, 15.93});
+  return measured.at(slope);
 }
 
 double fitting_width(double rms, double spacing, double cell) {
@@ -256,8 +244,7 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   const Raster waves = short_waves(raster, rectangle, cell);
   found.bump_length = bump_length(found.spacing, cell);
   found.bump_slope = bump_slope(waves, rectangle, cell, 0.0);
-  // Bumps explained by noise count as noise, because the two are measured differently, and a thalweg slightly increases
-  // the second one.
+  // Bumps explained by noise count as noise: the two are measured differently, and a thalweg adds to the second.
   const auto remaining_slope = [&](double width) {
     constexpr double explained = 1.25;
     const double noise = noise_slope(found.noise, found.spacing, cell, width);

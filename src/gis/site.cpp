@@ -6,7 +6,6 @@
 #include <set>
 
 #include "gis/case_inputs.hpp"
-#include "gis/dem.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
@@ -53,8 +52,7 @@ void check_domain(const config::Case& parameters, const Rectangle& domain, const
                   format_range(span), within.empty() ? "grid.min and grid.max so" : within);
 }
 
-// Rectangles around the polygons of releases and around boxes. Unreadable files are reported when the release is
-// loaded.
+// Rectangles around polygons of releases and boxes. Unreadable files are reported when the release is loaded.
 std::vector<Rectangle> places_of_bodies(const std::map<std::string, config::Body>& bodies, const std::string& crs) {
   std::vector<Rectangle> extents;
   for (const auto& [name, body] : bodies) {
@@ -146,10 +144,6 @@ SiteAndWarnings load_site(const config::Case& parameters) {
   for (const auto& [name, body] : parameters.bodies) {
     if (body.shape != config::BodyShape::release) {
       continue;
-    }
-    if (dem.raster.empty()) {
-      throw UserError("{}: a release lies on a DEM. Set terrain.type = \"dem\" and terrain.file.",
-                      place_of(parameters, fmt::format("body.{}.shape", name)));
     }
     const auto place = [&parameters, name = name](const std::string& key) {
       return place_of(parameters, fmt::format("body.{}.{}", name, key));

@@ -124,8 +124,6 @@ TEST(SiteTest, WithoutATerrainModelThereIsNoGround) {
   const config::Site site = load_site(parameters).site;
   EXPECT_EQ(site.ground, nullptr);
   EXPECT_EQ(site.crs_name, "");
-  parameters.bodies["rock"] = release_body("release.shp", 10.0);
-  expect_message(error_of_site(parameters));
 }
 
 // A slope between 1250 and 1350 m, with a patch of another value.
