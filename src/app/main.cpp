@@ -97,13 +97,12 @@ void require_known_command(const CLI::App& program, int count, char** arguments)
       return;
     }
   }
-  const std::string hint = thawslide::config::did_you_mean(arguments[1], commands);
   throw thawslide::UserError("there is no command '{}'{} Commands: {}. Run with --help for more information.",
-                             arguments[1], hint.empty() ? "." : hint, thawslide::config::comma_list(commands));
+                             arguments[1], thawslide::config::did_you_mean(arguments[1], commands, "."),
+                             thawslide::config::comma_list(commands));
 }
 
-// Reports lost output. A closed pipe is not an error, because the reader has read enough. Returns the exit code, `code`
-// if there is nothing to report.
+// Reports lost output, and returns the exit code. A closed pipe is not an error, because the reader has read enough.
 int end_without_output(std::error_code reason, int code) {
   if (reason == std::errc::broken_pipe) {
     return code;

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
@@ -53,8 +51,7 @@ void write_cropped_dem(const fs::path& file, const config::Site& site, const con
   gis::write_geotiff(file.string(), cropped, {"m", "elevation", site.heights});
 }
 
-// A release extends one cell of the DEM beyond its last points. If these are the DEM's last, there is no ground below
-// it.
+// A release extends one cell of the DEM beyond its last points. At the DEM's last points, there is no ground below it.
 void require_ground_about(const std::string& file, const Raster& ground, const Raster& thickness) {
   std::array<bool, 4> reached{};  // west, east, south, north
   constexpr std::array<const char*, 4> sides{"west", "east", "south", "north"};
@@ -78,12 +75,11 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   }
 }
 
-// Width of the filter of the DEM [m]: the larger of that against noise and bumps in the domain, and the cell of
-// `quick`.
+// Width of the filter of the DEM [m]: that against noise and bumps in the domain, at least the cell of `quick`.
 double filter_of(config::Case trial, const config::Proposal& proposal) {
   trial.grid.min = proposal.min;
   trial.grid.max = proposal.max;
-  trial.grid.cell = config::quick_cell(proposal);
+  trial.grid.cell = config::cell_of(config::Resolution::quick, proposal);  // so that all cells have the same ground
   trial.terrain.smooth.is_auto = true;
   return std::max(trial.grid.cell, reopen_site(trial).roughness->width);
 }
@@ -151,8 +147,7 @@ void copy_polygons(const fs::path& folder, const config::Case& trial) {
   }
 }
 
-// Calls work() in a new folder, which is removed again if it throws. A folder that existed was empty; it may be a link
-// to another folder, so only its contents are removed.
+// Calls work() in a new folder, which is removed if it throws; of an empty one that existed, only the contents.
 template <class Work>
 void in_new_folder(const fs::path& folder, const Work& work) {
   const bool was_there = fs::exists(folder);
@@ -181,9 +176,8 @@ std::string without_places(std::string message, const std::string& file) {
   return message;
 }
 
-// The first lines state the proposed cell and its cost. The other lines state the named resolutions except `chosen`;
-// their times follow from that cost and the cells, unless so few particles run that they take no time. chosen: a name,
-// or empty if the user specified the cell.
+// States the proposed cell and its cost, and the named resolutions except `chosen` (empty: the user specified the
+// cell), with their times unless so few particles run that they take none.
 std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const run::RunCost& cost) {
   constexpr double fewest_timed_particles = 1000.0;
   std::string errors, others;
@@ -192,8 +186,7 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
       errors = fmt::format("; {}", each.errors);
       continue;
     }
-    const double cell =
-        config::cell_of(each.resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
+    const double cell = config::cell_of(each.resolution, proposal);
     const double seconds = cost.processor * config::run_time_factor(proposal.cell, cell, 3);
     const bool is_timed = proposal.particles >= fewest_timed_particles;
     others +=
@@ -206,8 +199,7 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
       rounded_text(cost.steps), run::text_of(cost), others);
 }
 
-// Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
-// that refuse the case before its first step.
+// Cost of a run by its first steps, or nothing if these fail. Throws errors that refuse the case before its first step.
 std::optional<run::RunCost> cost_of_run(const fs::path& folder) {
   try {
     const config::Case made = config::read_case(folder);
@@ -269,7 +261,7 @@ int make_new_case(const NewOptions& options) {
 
   const Raster &ground = *site.ground, &thickness = site.releases.at(body_name).thickness;
   std::optional<config::Proposal> quick;  // of the members of a forecast, if the case has smaller cells
-  if (proposal.cell < config::quick_cell(proposal)) {
+  if (proposal.cell < config::cell_of(config::Resolution::quick, proposal)) {
     quick = config::propose(ground, thickness, options.reach_angle);
   }
 
@@ -300,8 +292,11 @@ int make_new_case(const NewOptions& options) {
   if (input.base) {
     fmt::print("{}", base_text(*input.base));
   }
-  config::BodyOnCells body = config::release_on_cells(proposal);
-  body.has_maps = resolution.empty() || !cost;  // otherwise the text above states the cells for maps
+  const config::BodyOnCells body{.name = body_name,
+                                 .thickness = proposal.median_thickness,
+                                 .cell = proposal.cell,
+                                 .particles_per_axis = proposal.particles_per_axis,
+                                 .has_maps = resolution.empty() || !cost};  // otherwise stated above
   if (const std::string warning = config::resolution_warning(body, "--cell"); !warning.empty()) {
     fmt::print("warning: {}\n", warning);
   }

@@ -28,8 +28,7 @@ struct BodyLayers {
   }
 };
 
-// Requires a case whose pairs name existing bodies. `contradiction`, unless null, receives the text on the first
-// inconsistent pair, and `of_pair` its name.
+// Pairs must name existing bodies. `contradiction` receives a text on the first inconsistent pair, `of_pair` its name.
 [[nodiscard]] BodyLayers body_layers(const Case& parameters, std::string* contradiction = nullptr,
                                      std::string* of_pair = nullptr);
 

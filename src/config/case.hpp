@@ -154,8 +154,7 @@ struct Material {
   double hydraulic_conductivity = 0;                                 // m/s
 };
 
-// Quantity of a release: a number, an attribute of its polygons, or a raster. A thickness may also be the difference
-// between a raster of the surface before release and the DEM.
+// Quantity of a release; a thickness may also be the difference between a raster of the former surface and the DEM.
 struct MapValue {
   enum class From { number, attribute, raster, surface };
   From from = From::number;

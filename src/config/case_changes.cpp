@@ -18,8 +18,7 @@ namespace thawslide::config {
 
 namespace {
 
-// Keys that the step reads each time and that have no stored state. A name ending with a dot includes all keys of the
-// table.
+// Keys that the step reads each time, without stored state. A name ending with a dot is that of a table.
 constexpr std::array<std::string_view, 20> changeable = {
     "time.",
     "checkpoint.",
@@ -55,6 +54,16 @@ bool may_change(const std::string& given) {
   return std::any_of(changeable.begin(), changeable.end(), [&key](std::string_view each) {
     return each.back() == '.' ? key.starts_with(each) : key == each;
   });
+}
+
+std::string changeable_keys() {
+  std::string words;
+  for (const std::string_view each : changeable) {
+    const std::string word =
+        each.back() == '.' ? fmt::format("[{}]", each.substr(0, each.size() - 1)) : std::string(each);
+    words += (words.empty() ? "" : ", ") + word;
+  }
+  return words + ", and friction and cohesion of [substrate.NAME] as of [basal]";
 }
 
 bool changes_no_run(const std::string& key) { return key == "case.title" || key.rfind("report.", 0) == 0; }
@@ -137,16 +146,6 @@ std::set<std::string> keys_of(const std::vector<std::string>& sets) {
   return keys;
 }
 
-std::string changeable_keys() {
-  std::string words;
-  for (const std::string_view each : changeable) {
-    const std::string word =
-        each.back() == '.' ? fmt::format("[{}]", each.substr(0, each.size() - 1)) : std::string(each);
-    words += (words.empty() ? "" : ", ") + word;
-  }
-  return words + ", and friction and cohesion of [substrate.NAME] as of [basal]";
-}
-
 void require_changeable(const std::vector<std::string>& sets) {
   std::string fixed;
   for (const std::string& set : sets) {
@@ -157,9 +156,9 @@ void require_changeable(const std::vector<std::string>& sets) {
   }
   if (!fixed.empty()) {
     throw UserError(
-        fmt::format("{} cannot be changed on resume, because earlier results depend on it. Allowed: {}. For other "
-                    "changes, run the case again.",
-                    fixed, changeable_keys()));
+        "{} cannot be changed on resume, because earlier results depend on it. Allowed: {}. For other "
+        "changes, run the case again.",
+        fixed, changeable_keys());
   }
 }
 

@@ -44,9 +44,9 @@ void require_shallow(const std::string& text, const std::string& file) {
     after_dot = letter == '.' && is_of_key(before);
     before = letter;
     if (parts > most_key_parts) {
-      throw UserError(fmt::format(
+      throw UserError(
           "{}:{}: this is not a case: a key of more than {} parts; allowed: TABLE.NAME.KEY. Is it the right file?",
-          file, line, most_key_parts));
+          file, line, most_key_parts);
     }
     if (std::string_view(",=[]{}\n").find(letter) != std::string_view::npos) {
       parts = 1;
@@ -74,15 +74,15 @@ toml::table parse(const std::string& text, const std::string& file) {
   try {
     toml::table root = toml::parse(text, std::string_view(file));
     if (root.empty()) {
-      throw UserError(fmt::format(
-          "{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].", file));
+      throw UserError("{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].",
+                      file);
     }
     return root;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw UserError(fmt::format(
-        "{}:{}:{}: this is not TOML: {}. {}Correct the line; see https://toml.io for the syntax.", file, begin.line,
-        begin.column, shown(std::string(error.description())), likely_slip(error.description())));
+    throw UserError("{}:{}:{}: this is not TOML: {}. {}Correct the line; see https://toml.io for the syntax.", file,
+                    begin.line, begin.column, shown(std::string(error.description())),
+                    likely_slip(error.description()));
   }
 }
 
@@ -115,8 +115,7 @@ std::optional<fs::path> base_of(const toml::table& root, const std::vector<CaseF
   return base;
 }
 
-// True if tables of the case have this dotted name, or lie inside it: "grid", "body", "body.slide". All other tables
-// are values: { raster = "thickness.tif" }.
+// True for the name of a table, "body.slide", or of one that contains tables. Others are values: { raster = "a.tif" }.
 bool names_a_table(const std::string& dotted) {
   return std::any_of(tables().begin(), tables().end(), [&](const auto& table) {
     const std::string inside = dotted + ".", outside = table->name + ".";
@@ -185,16 +184,14 @@ std::optional<toml::table> parse_value(const Override& override, Reading& readin
       return text;
     }
   }
-  reading.problems.add(location_of_set(override),
-                       fmt::format("'{}' is not one TOML value. Write for example --set band.thickness=0.1, "
-                                   "--set grid.min='[0, 0]' or --set terrain.type=flat.",
-                                   override.value));
-  reading.invalid_keys.insert(override.key);
+  reading.report_at(location_of_set(override), override.key,
+                    "'{}' is not one TOML value. Write for example --set band.thickness=0.1, --set grid.min='[0, 0]' "
+                    "or --set terrain.type=flat.",
+                    override.value);
   return std::nullopt;
 }
 
-// True if `--set` specifies a key that is always required, such as body.NAME.material; for a table without such keys,
-// one that has no default and does not depend on others, such as probe.NAME.point.
+// True if `--set` specifies a key that is always required or, in a table without such keys, one that has no default.
 bool defines_table(const TableDeclaration& table, const std::string& own_name, const Reading& reading) {
   const std::vector<Entry> entries = table.entries();
   const auto is_needed = [](const Entry& entry) { return entry.required == "always"; };
@@ -215,8 +212,7 @@ const TableDeclaration* named_table(const std::string& name) {
   return found == tables().end() ? nullptr : found->get();
 }
 
-// A key of a named table must use a name from the file, or define a new table; otherwise a typing error would create a
-// second body.
+// A key of a named table must be of a table in the file, or define one: a typing error would create a second body.
 bool may_name_table(const Override& override, const std::vector<std::string>& parts, const toml::table& root,
                     Reading& reading) {
   if (parts.size() < 3) {
@@ -233,10 +229,8 @@ bool may_name_table(const Override& override, const std::vector<std::string>& pa
       defines_table(*table, parts[1], reading)) {
     return true;
   }
-  reading.problems.add(location_of_set(override),
-                       fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
-                                   nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
-                                   names.empty() ? "none" : comma_list(names)));
+  reading.report_at(location_of_set(override), override.key, "there is no {} '{}'{} In the case file: {}.", parts[0],
+                    parts[1], did_you_mean(parts[1], names, "."), names.empty() ? "none" : comma_list(names));
   return false;
 }
 
@@ -246,9 +240,9 @@ bool fits_named_table(const Override& override, const std::vector<std::string>& 
   if (parts.size() != 2 || named_table(parts[0]) == nullptr || value.is_table()) {
     return true;
   }
-  reading.problems.add(location_of_set(override),
-                       fmt::format("[{}] is a table, and {} no table. Set one of its keys: --set {}.KEY=VALUE.",
-                                   override.key, override.value, override.key));
+  reading.report_at(location_of_set(override), override.key,
+                    "[{}] is a table, and {} no table. Set one of its keys: --set {}.KEY=VALUE.", override.key,
+                    override.value, override.key);
   return false;
 }
 
@@ -300,7 +294,7 @@ Override parse_override(const std::string& text) {
   const std::vector<std::string> parts = split_at_dots(override.key);
   const bool has_key = std::none_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); });
   if (equals == std::string::npos || !has_key) {
-    throw UserError(fmt::format("--set {}: allowed: TABLE.KEY=VALUE, for example --set band.thickness=0.1.", text));
+    throw UserError("--set {}: allowed: TABLE.KEY=VALUE, for example --set band.thickness=0.1.", text);
   }
   return override;
 }

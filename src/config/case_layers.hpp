@@ -1,5 +1,4 @@
-// Layers of a case: a case file, those of its folder on which it is based, and `--set key=value` texts. The keys of a
-// layer replace those below it.
+// Layers of a case: a case file, those on which it is based, and `--set` texts. Keys of a layer replace those below it.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +22,7 @@ struct LayeredCase {
 // End of the line of such a key in the resolved case of a run.
 inline constexpr const char* not_given_mark = "not given";
 
-// Reads a case file, the file named by its case.based_on, the base of that ... Throws UserError for a file that is
-// unreadable, empty or not TOML, and for a base that is missing or forms a cycle.
+// Reads a case file and its chain of case.based_on. Throws UserError for an invalid file or a cycle.
 std::vector<CaseFile> read_with_bases(const std::filesystem::path& file);
 
 // Merges the first of these files over the others. Nodes keep their original locations.

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/rounding.hpp"
-#include "config/resolution.hpp"
 #include "config/rule.hpp"
 #include "config/site.hpp"
 #include "config/values.hpp"
@@ -103,8 +101,7 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   return extent;
 }
 
-// Distance from the bounding box of the release to the nearest DEM edge or no-data point [m]. The search ends at `most`
-// [m], which is returned if nothing is nearer.
+// Distance from the bounding box of the release to the nearest DEM edge or no-data point [m], at most `most`.
 double distance_to_edge(const Raster& dem, const ReleaseExtent& release, double most) {
   double nearest = std::min(
       {most, release.west - dem.x, dem.x_end() - release.east, release.south - dem.y, dem.y_end() - release.north});
@@ -124,8 +121,8 @@ struct Stretch {
   double low = 0.0, high = 0.0;
 };
 
-// Domain along x or y that contains `held` within the DEM. It begins and ends at multiples of four cells. If that would
-// cut the release at the edge of the DEM, it ends at multiples of a cell, or otherwise at the edge of the DEM.
+// Domain along x or y within the DEM, between multiples of four cells. If that would cut the release at the edge of the
+// DEM, it ends at multiples of a cell, or otherwise at the edge.
 Stretch domain_along(const Stretch& given, const Stretch& release, const Stretch& dem, double cell) {
   Stretch domain;
   for (const double block : {block_cells * cell, cell}) {
@@ -150,9 +147,7 @@ Stretch domain_along(const Stretch& given, const Stretch& release, const Stretch
 
 // Sets the cell and the number of particles; needs volume and thicknesses. `cell`: as specified by the user, or 0.
 void propose_cell(Proposal& proposal, int dimension, double cell, Resolution resolution) {
-  proposal.cell = cell > 0.0
-                      ? cell
-                      : cell_of(resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
+  proposal.cell = cell > 0.0 ? cell : cell_of(resolution, proposal);
   proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
 }
 
@@ -181,16 +176,8 @@ std::string edge_warning(const Proposal& proposal) {
       rounded_text(proposal.edge_distance, 2), rounded_text(proposal.length, 2));
 }
 
-double quick_cell(const Proposal& proposal) {
-  return cell_of(Resolution::quick, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
-}
-
-BodyOnCells release_on_cells(const Proposal& proposal) {
-  return {.name = "slide",
-          .thickness = proposal.median_thickness,
-          .cell = proposal.cell,
-          .particles_per_axis = proposal.particles_per_axis,
-          .has_maps = true};
+double cell_of(Resolution resolution, const Proposal& proposal) {
+  return cell_of(resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
 }
 
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell, Resolution resolution) {

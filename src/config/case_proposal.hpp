@@ -1,5 +1,4 @@
-// Initial case for a DEM and a release, or for a section from a DEM, with suitable cell, domain and times; and its
-// sweep file.
+// Initial case for a DEM and a release, or for a section from a DEM, with suitable cell, domain and times; sweep file.
 #pragma once
 
 #include <array>
@@ -17,8 +16,8 @@ namespace thawslide::config {
 // Default reach angle, which determines the size of the domain [degrees].
 constexpr double usual_reach_angle = 8.0;
 
-// Base of a new case, chosen by the rigid block: the thinnest of these bands that friction without pore pressure does
-// not warm above the limit, as parts of a slide without pressure boil dry. The thickest one if none is.
+// Base of a new case: the thinnest of these bands that a rigid block without pore pressure does not warm above the
+// limit, because parts of a slide without pressure boil dry; otherwise the thickest.
 struct ProposedBase {
   static constexpr std::array candidates{2.0, 1.0, 0.5, 0.2, 0.1};  // m
   static constexpr double limit = 210.0;  // C: hotter bases are reported as not credible (run/step_warnings.cpp)
@@ -30,8 +29,7 @@ struct ProposedBase {
   double missing_cohesion = 0.0;  // for equilibrium at the start [Pa]; 0: none
 };
 
-// Name of the table [substrate.NAME], option of `new`, and friction coefficient with its range. All are assumptions:
-// these coefficients contain the pore pressure of events.
+// Table [substrate.NAME], option of `new`, and assumed friction coefficient with its range, including pore pressure.
 struct ProposedSubstrate {
   const char *name, *option;
   double coefficient, low, high;
@@ -82,10 +80,8 @@ struct Proposal {
   double particles = 0.0;         // approximate number
 };
 
-// Proposes a domain that contains all DEM points below a line at the reach angle from the release's highest point. It
-// also contains the whole release, which may extend one DEM cell beyond the points with a thickness. The cell is that
-// of the resolution. dem: NaN for no data; thickness: vertical [m], on the same points. `cell`: size of the grid's
-// cells [m] if the user specifies it; 0: not specified.
+// Domain that contains the release, and DEM points below a line at the reach angle from its top. dem: NaN for no data;
+// thickness: vertical [m], on the same points; cell: if the user specifies it [m]; 0: that of the resolution.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0,
                                Resolution resolution = Resolution::quick);
 
@@ -99,14 +95,12 @@ struct SurfaceBody {
 // Requires a profile with a surface; returns a body of zero area if the surface is nowhere above the ground.
 [[nodiscard]] SurfaceBody body_on(const ProfileTable& profile);
 
-// Proposes a domain as long as the section, in whole cells, and as high as its ground and body with a margin of some
-// cells. The cell gives at least six particles across the mean thickness.
+// Domain as long as the section, in whole cells, and as high as ground and body with a margin; cell of `quick`.
 [[nodiscard]] Proposal propose_section(const ProfileTable& profile, const SurfaceBody& body);
 
 inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
 
-// dem: NaN for no data; thickness: vertical [m], untapered, on the same points. The width is less than wanted if the
-// taper would reach unknown ground, or reduce the thickness in the middle of the release.
+// Taper for an untapered vertical thickness [m]; narrower than wanted at unknown ground, or in a narrow release.
 [[nodiscard]] EdgeTaper propose_taper(const Raster& dem, const Raster& thickness);
 
 // Fall of the mean plane of the terrain below a release, divided by its run.
@@ -119,23 +113,17 @@ inline constexpr int margin_cells = 4;  // between the release and the sides of 
 [[nodiscard]] std::string section_text(const std::string& title, const std::string& profile_file,
                                        const Proposal& proposal, const std::optional<ProposedBase>& base = {});
 
-// Sweep file with comments: ranges of keys of a proposed case. thickness: of the release [m]. base: of the case. quick:
-// proposal on cells of `quick`, if those of the case are others. outlines: by proposed substrate.
+// Sweep file of a case with this thickness [m] and base; quick: proposal on cells of `quick`, if the case has others.
 [[nodiscard]] std::string sweep_text(double thickness, const ProposedBase& base, const std::optional<Proposal>& quick,
                                      const Outlines& outlines);
 
 // Median of a thickness raster [m] with points of equal area: half of the area is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
 
-// Cell of `quick` [m], whatever cell was chosen. It determines the filter of the DEM, so that slides on different cells
-// move on the same ground.
-[[nodiscard]] double quick_cell(const Proposal& proposal);
+// Cell of a resolution [m] for the release of a proposal.
+[[nodiscard]] double cell_of(Resolution resolution, const Proposal& proposal);
 
-// Release of a 3D case, which has maps.
-[[nodiscard]] BodyOnCells release_on_cells(const Proposal& proposal);
-
-// Warning if a release is closer to the DEM edge or to no-data points than its own length, because an avalanche spreads
-// and travels farther than that. Empty otherwise.
+// Warning if a release is closer to unknown terrain than its own length, because avalanches spread farther; or empty.
 [[nodiscard]] std::string edge_warning(const Proposal& proposal);
 
 }  // namespace thawslide::config

@@ -1,9 +1,5 @@
 #include "config/checks.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <limits>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -86,11 +82,11 @@ void check_times(const Case& checked, Reading& reading) {
   for (const auto& [key, interval, or_none] : intervals) {
     if (reading.are_valid({key}) && interval > 0.0 && interval < time.end / most_intervals) {
       const bool is_given = reading.is_given(key);
-      reading.report_misfit({is_given ? key : "time.end", is_given ? "time.end" : key},
-                            fmt::format("{} is {} s, and the run of {} s has {} times as much; allowed: {:.4g} s and "
-                                        "more, {} of them in the run{}. Make it longer, or the run shorter.",
-                                        key, interval, time.end, rounded_text(time.end / interval, 2),
-                                        rounded_up(time.end / most_intervals, 4), count_text(most_intervals), or_none));
+      reading.report({is_given ? key : "time.end", is_given ? "time.end" : key},
+                     "{} is {} s, and the run of {} s has {} times as much; allowed: {:.4g} s and "
+                     "more, {} of them in the run{}. Make it longer, or the run shorter.",
+                     key, interval, time.end, rounded_text(time.end / interval, 2),
+                     rounded_up(time.end / most_intervals, 4), count_text(most_intervals), or_none);
     }
   }
 }
@@ -113,18 +109,17 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
   try {
     profile = read_profile(checked.terrain.file);
   } catch (const UserError& error) {
-    reading.report("terrain.file", fmt::format("terrain.file: {}", error.what()));
+    reading.report({"terrain.file"}, "terrain.file: {}", error.what());
     return {};
   }
   const double from = profile.distance.front(), to = profile.distance.back();
   if (!checked.terrain.extend && reading.are_valid({"grid.min", "grid.max"}) &&
       (from > checked.grid.min[0] || to < checked.grid.max[0])) {
-    reading.report_misfit(
-        {"terrain.file", "grid.max", "grid.min", "terrain.extend"},
-        fmt::format(
-            "the profile reaches from {} to {} m and the domain from {} to {} m; allowed: a profile that covers "
-            "the domain. Set terrain.extend = true to continue its last gradients, or make the domain shorter.",
-            from, to, checked.grid.min[0], checked.grid.max[0]));
+    reading.report({"terrain.file", "grid.max", "grid.min", "terrain.extend"},
+
+                   "the profile reaches from {} to {} m and the domain from {} to {} m; allowed: a profile that covers "
+                   "the domain. Set terrain.extend = true to continue its last gradients, or make the domain shorter.",
+                   from, to, checked.grid.min[0], checked.grid.max[0]);
   }
   return profile;
 }
@@ -137,11 +132,9 @@ void check_material(const Case& checked, const std::string& table, const std::st
     known.push_back(material);
   }
   if (reading.are_valid({table + ".material"}) && checked.materials.count(name) == 0) {
-    const std::string hint = did_you_mean(name, known);
-    reading.report(table + ".material",
-                   fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table, name, name,
-                               hint.empty() ? "." : hint,
-                               known.empty() ? "none, as the case has no [material.NAME]" : comma_list(known)));
+    reading.report({table + ".material"}, "{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table,
+                   name, name, did_you_mean(name, known, "."),
+                   known.empty() ? "none, as the case has no [material.NAME]" : comma_list(known));
   }
 }
 
@@ -159,7 +152,6 @@ void check_case(const Case& checked, Reading& reading) {
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
   check_force_periods(checked, reading);
-  check_file_names(checked, reading);
   check_width(checked, reading);
 }
 

@@ -44,11 +44,10 @@ bool check_box_order(const Point& low, const Point& high, const std::string& tab
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
     if (!(low[a] < high[a])) {
-      reading.report_misfit(
-          {table + ".max", table + ".min"},
-          fmt::format("{}.max is {}, not above {}.min, which is {}, in every direction; give the highest corner "
-                      "of the box.",
-                      table, point_text(high, dimension), table, point_text(low, dimension)));
+      reading.report({table + ".max", table + ".min"},
+                     "{}.max is {}, not above {}.min, which is {}, in every direction; give the highest corner "
+                     "of the box.",
+                     table, point_text(high, dimension), table, point_text(low, dimension));
       return false;
     }
   }
@@ -65,13 +64,11 @@ void check_in_domain(const Case& checked, const Point& low, const Point& high, c
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
     if (low[a] < grid.min[a] || high[a] > grid.max[a]) {
       const bool is_low = low[a] < grid.min[a];
-      reading.report_misfit(
-          {is_low ? low_key : high_key, is_low ? "grid.min" : "grid.max"},
-          fmt::format("{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "
-                      "widen grid.min and grid.max.",
-                      table, point_text(low, checked.general.dimension), point_text(high, checked.general.dimension),
-                      point_text(grid.min, checked.general.dimension),
-                      point_text(grid.max, checked.general.dimension)));
+      reading.report({is_low ? low_key : high_key, is_low ? "grid.min" : "grid.max"},
+                     "{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "
+                     "widen grid.min and grid.max.",
+                     table, point_text(low, checked.general.dimension), point_text(high, checked.general.dimension),
+                     point_text(grid.min, checked.general.dimension), point_text(grid.max, checked.general.dimension));
       return;
     }
   }
@@ -80,10 +77,10 @@ void check_in_domain(const Case& checked, const Point& low, const Point& high, c
 void report_below_ground(const Case& checked, double x, double height, double ground, const std::string& table,
                          const std::string& key, Reading& reading) {
   const char* const height_key = checked.terrain.kind == TerrainKind::profile ? "terrain.file" : "terrain.elevation";
-  reading.report_misfit({key, height_key, "terrain.slope", "terrain.type"},
-                        fmt::format("{} is below the terrain: at x = {} m its elevation is {} m and the ground's {} m; "
-                                    "allowed: on the ground or above it. Lift the body, or lower the terrain.",
-                                    table, coordinate_text(x), coordinate_text(height), coordinate_text(ground)));
+  reading.report({key, height_key, "terrain.slope", "terrain.type"},
+                 "{} is below the terrain: at x = {} m its elevation is {} m and the ground's {} m; "
+                 "allowed: on the ground or above it. Lift the body, or lower the terrain.",
+                 table, coordinate_text(x), coordinate_text(height), coordinate_text(ground));
 }
 
 void check_box(const Case& checked, const ProfileTable& profile, const Body& body, const std::string& table,
@@ -128,10 +125,10 @@ bool check_outline(const Vertices& vertices, double size, const std::string& key
   for (std::size_t j = 0; j < count; ++j) {
     for (std::size_t k = j + 2; k < count; ++k) {
       if (cross(vertices[j], vertices[j + 1], vertices[k], vertices[(k + 1) % count])) {
-        reading.report(key,
-                       fmt::format("{} make sides that cross: the one after vertex {} and the one after vertex {}; "
-                                   "allowed: corners in order around the body. Put them in order.",
-                                   key, j + 1, k + 1));
+        reading.report({key},
+                       "{} make sides that cross: the one after vertex {} and the one after vertex {}; "
+                       "allowed: corners in order around the body. Put them in order.",
+                       key, j + 1, k + 1);
         return false;
       }
     }
@@ -141,9 +138,10 @@ bool check_outline(const Vertices& vertices, double size, const std::string& key
     twice_area += turn(vertices[0], vertices[k], vertices[k + 1]);
   }
   if (std::abs(twice_area) <= flat * size * size) {
-    reading.report(key, fmt::format("{} are {} points that hold no area; allowed: at least 3 that are not on one line. "
-                                    "Give the corners in order around the body.",
-                                    key, vertices.size()));
+    reading.report({key},
+                   "{} are {} points that hold no area; allowed: at least 3 that are not on one line. "
+                   "Give the corners in order around the body.",
+                   key, vertices.size());
     return false;
   }
   return true;
@@ -189,8 +187,7 @@ void check_polygon(const Case& checked, const ProfileTable& profile, const Body&
   }
 }
 
-// Bounding box of the body between terrain and surface of the profile. From a row with a higher surface, the body thins
-// out to the adjacent rows. The box is empty if the surface is nowhere higher.
+// Bounding box of the body on a profile, which thins out to the rows next to it. Empty if it is nowhere higher.
 std::array<Point, 2> surface_extent(const ProfileTable& profile) {
   Point low{INFINITY, INFINITY, 0.0}, high{-INFINITY, -INFINITY, 0.0};
   const std::size_t rows = profile.distance.size();
@@ -209,30 +206,27 @@ std::array<Point, 2> surface_extent(const ProfileTable& profile) {
 void check_surface(const Case& checked, const ProfileTable& profile, const std::string& table, Reading& reading) {
   const std::string shape = table + ".shape";
   if (checked.terrain.kind != TerrainKind::profile) {
-    reading.report_misfit(
-        {shape, "terrain.type"},
-        fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape takes the body from the "
-                    "profile's surface_elevation_m. Set terrain.type and terrain.file, or use the shape \"box\" or "
-                    "\"polygon\".",
-                    table));
+    reading.report({shape, "terrain.type"},
+                   "{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape takes the body from the "
+                   "profile's surface_elevation_m. Set terrain.type and terrain.file, or use the shape \"box\" or "
+                   "\"polygon\".",
+                   table);
   }
   if (profile.empty()) {
     return;
   }
   if (profile.surface.empty()) {
-    reading.report_misfit(
-        {shape, "terrain.file"},
-        fmt::format("{}.shape is \"surface\", and the profile has no column surface_elevation_m; add it to {}, or use "
-                    "the shape \"box\" or \"polygon\".",
-                    table, checked.terrain.file));
+    reading.report({shape, "terrain.file"},
+                   "{}.shape is \"surface\", and the profile has no column surface_elevation_m; add it to {}, or use "
+                   "the shape \"box\" or \"polygon\".",
+                   table, checked.terrain.file);
   } else if (const auto [low, high] = surface_extent(profile); low[0] < high[0]) {
     check_in_domain(checked, low, high, table, shape, shape, reading);
   } else {
-    reading.report_misfit(
-        {shape, "terrain.file"},
-        fmt::format("{}.shape is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: the body "
-                    "holds nothing. Raise the surface there, or use the shape \"box\" or \"polygon\".",
-                    table, checked.terrain.file));
+    reading.report({shape, "terrain.file"},
+                   "{}.shape is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: the body "
+                   "holds nothing. Raise the surface there, or use the shape \"box\" or \"polygon\".",
+                   table, checked.terrain.file);
   }
 }
 
@@ -243,10 +237,10 @@ void check_release_time(const Case& checked, const Body& body, const std::string
   }
   const ReleaseTime& release = body.release_time;
   if (!release.attribute.empty() && (body.shape != BodyShape::release || body.release.empty())) {
-    reading.report(key,
-                   fmt::format("{} is the attribute \"{}\", and the body has no release polygons. Give the time in "
-                               "seconds, or the polygons as {}.release.",
-                               key, release.attribute, table));
+    reading.report({key},
+                   "{} is the attribute \"{}\", and the body has no release polygons. Give the time in "
+                   "seconds, or the polygons as {}.release.",
+                   key, release.attribute, table);
     return;
   }
   const bool is_staged = release.number > 0.0 || !release.attribute.empty();
@@ -256,9 +250,9 @@ void check_release_time(const Case& checked, const Body& body, const std::string
       "a later time.end.",
       key, release.number, checked.time.end);
   if (is_staged && reading.are_valid({table + ".velocity"}) && body.velocity != Point{}) {
-    reading.report_misfit({table + ".velocity", key},
-                          fmt::format("{}.velocity is {}, and {} holds the body at rest until its release. Remove one.",
-                                      table, point_text(body.velocity, checked.general.dimension), key));
+    reading.report({table + ".velocity", key},
+                   "{}.velocity is {}, and {} holds the body at rest until its release. Remove one.", table,
+                   point_text(body.velocity, checked.general.dimension), key);
   }
 }
 
@@ -271,11 +265,10 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
     return;
   }
   if (body.shape != BodyShape::box && checked.general.dimension == 3) {
-    reading.report_misfit(
-        {table + ".shape", "case.dimension"},
-        fmt::format("{}.shape is for 2D cases; allowed in 3D: \"box\", \"release\". Use the shape \"box\" with min and "
-                    "max, or on a DEM the shape \"release\".",
-                    table));
+    reading.report({table + ".shape", "case.dimension"},
+                   "{}.shape is for 2D cases; allowed in 3D: \"box\", \"release\". Use the shape \"box\" with min and "
+                   "max, or on a DEM the shape \"release\".",
+                   table);
   } else if (body.shape == BodyShape::box) {
     check_box(checked, profile, body, table, reading);
   } else if (body.shape == BodyShape::polygon) {
@@ -293,12 +286,11 @@ void check_frame_meets_domain(const Case& checked, const Frame& frame, const std
     const double low = frame.min[a] + std::min(0.0, displacement);
     const double high = frame.max[a] + std::max(0.0, displacement);
     if (high <= checked.grid.min[a] || low >= checked.grid.max[a]) {
-      reading.report_misfit(
-          {table + ".min", table + ".velocity", "grid.min", "grid.max", "time.end"},
-          fmt::format("{} reaches from {} to {} and stays outside the domain, which is {} to {}, until time.end; move "
-                      "the frame, or widen grid.min and grid.max.",
-                      table, point_text(frame.min, dimension), point_text(frame.max, dimension),
-                      point_text(checked.grid.min, dimension), point_text(checked.grid.max, dimension)));
+      reading.report({table + ".min", table + ".velocity", "grid.min", "grid.max", "time.end"},
+                     "{} reaches from {} to {} and stays outside the domain, which is {} to {}, until time.end; move "
+                     "the frame, or widen grid.min and grid.max.",
+                     table, point_text(frame.min, dimension), point_text(frame.max, dimension),
+                     point_text(checked.grid.min, dimension), point_text(checked.grid.max, dimension));
       return;
     }
   }
@@ -318,7 +310,7 @@ void check_frame(const Case& checked, const std::string& name, const Frame& fram
 
 void check_bodies(const Case& checked, const ProfileTable& profile, Reading& reading) {
   if (checked.bodies.empty() && reading.are_valid({"body"})) {
-    reading.report("body", "the case has no body; add a table [body.NAME] with its material and shape.");
+    reading.report({"body"}, "the case has no body; add a table [body.NAME] with its material and shape.");
   }
   for (const auto& [name, body] : checked.bodies) {
     check_body(checked, profile, name, body, reading);

@@ -1,7 +1,4 @@
-// Checks of options that exclude each other: switches, band columns, cells that follow the terrain, contact between
-// bodies, and the width of a section, which may vary along x (mpm/section_width.hpp).
-#include <fmt/format.h>
-
+// Options that exclude each other: switches, band columns, cells on terrain, contact, and the width of a section.
 #include <array>
 #include <cmath>
 #include <set>
@@ -60,8 +57,7 @@ void check_switches(const Case& checked, Reading& reading) {
       checked.pressure.residual_stress);
 }
 
-// With band columns, particle temperature and pore pressure stay constant, so keys that act on them have no effect.
-// Columns lack the formulations that create heat or water spuriously.
+// With band columns, particles keep temperature and pore pressure, so keys that act on them have no effect.
 void check_band_columns(const Case& checked, Reading& reading) {
   if (!reading.are_valid({"band.model"}) || !has_band_columns(checked)) {
     return;
@@ -111,10 +107,10 @@ bool check_names(const Case& checked, Reading& reading) {
     }
     const std::set<std::string> names(pair.bodies.begin(), pair.bodies.end());
     if (pair.bodies.size() != 2 || names.size() != 2) {
-      reading.report(key,
-                     fmt::format("{} has {} names of {} bodies; allowed: the names of two. Name the two bodies, as "
-                                 "in bodies = [\"ice\", \"rock\"].",
-                                 key, pair.bodies.size(), names.size()));
+      reading.report({key},
+                     "{} has {} names of {} bodies; allowed: the names of two. Name the two bodies, as "
+                     "in bodies = [\"ice\", \"rock\"].",
+                     key, pair.bodies.size(), names.size());
       are_right = false;
       continue;
     }
@@ -124,15 +120,13 @@ bool check_names(const Case& checked, Reading& reading) {
         for (const auto& [known_body, unused] : checked.bodies) {
           known.push_back(known_body);
         }
-        const std::string hint = did_you_mean(body, known);
-        reading.report(key, fmt::format("{} names '{}', and there is no [body.{}]{} Allowed: {}.", key, body, body,
-                                        hint.empty() ? "." : hint, comma_list(known)));
+        reading.report({key}, "{} names '{}', and there is no [body.{}]{} Allowed: {}.", key, body, body,
+                       did_you_mean(body, known, "."), comma_list(known));
         are_right = false;
       }
     }
     if (are_right && !seen.insert(names).second) {
-      reading.report(key,
-                     fmt::format("{} names two bodies that another [contact_pair.NAME] names too. Remove one.", key));
+      reading.report({key}, "{} names two bodies that another [contact_pair.NAME] names too. Remove one.", key);
       are_right = false;
     }
   }
@@ -151,7 +145,7 @@ void check_contact(const Case& checked, Reading& reading) {
   std::string contradiction, of_pair;
   const BodyLayers layers = body_layers(checked, &contradiction, &of_pair);
   if (!contradiction.empty()) {
-    reading.report("contact_pair." + of_pair + ".contact", contradiction);
+    reading.report({"contact_pair." + of_pair + ".contact"}, "{}", contradiction);
     return;
   }
   const std::string key =
@@ -166,10 +160,10 @@ void check_contact(const Case& checked, Reading& reading) {
   // Each of these is reported, although the first report marks `key` as invalid.
   const auto exclude = [&](bool is_chosen, const char* other, const char* what, const char* remedy) {
     if (layers.count > 1 && reading.are_valid({other}) && is_chosen) {
-      reading.report_misfit({key, other},
-                            fmt::format("{}: frictional contact between bodies and {} exclude each other. Set "
-                                        "contact.between_bodies = \"bonded\", or {}.",
-                                        key, what, remedy));
+      reading.report({key, other},
+                     "{}: frictional contact between bodies and {} exclude each other. Set "
+                     "contact.between_bodies = \"bonded\", or {}.",
+                     key, what, remedy);
     }
   };
   exclude(has_band_columns(checked), "band.model", "band.model = \"columns\"", "band.model = \"scaled\"");
@@ -205,11 +199,11 @@ void check_cells(const Case& checked, Reading& reading) {
     found += option.is_requested ? (found.empty() ? "" : ", ") + std::string(option.what) : "";
   }
   if (!found.empty()) {
-    reading.report("terrain.type",
-                   fmt::format("terrain.type: cells that follow the terrain do not support all options of this case "
-                               "(found {}; allowed: none of these). Remove them: the terrain is the lower boundary. A "
-                               "[frame] needs terrain.type = \"flat\".",
-                               found));
+    reading.report({"terrain.type"},
+                   "terrain.type: cells that follow the terrain do not support all options of this case "
+                   "(found {}; allowed: none of these). Remove them: the terrain is the lower boundary. A "
+                   "[frame] needs terrain.type = \"flat\".",
+                   found);
   }
   reading.refuse_if(
       checked.terrain.kind == TerrainKind::plane && std::abs(checked.terrain.slope) > checked.grid.steepest,
@@ -241,9 +235,10 @@ void check_width(const Case& checked, Reading& reading) {
   };
   for (const auto& other : others) {
     if (other.is_given) {
-      reading.report_misfit({key}, fmt::format("{}: a width that varies along x and {} exclude each other. Give one "
-                                               "width, or remove the latter.",
-                                               key, other.what));
+      reading.report({key},
+                     "{}: a width that varies along x and {} exclude each other. Give one "
+                     "width, or remove the latter.",
+                     key, other.what);
       return;
     }
   }

@@ -1,6 +1,4 @@
 // Checks of the ground: parameters of its laws, extent of substrates, and the erodible bed.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "config/checks.hpp"
@@ -34,10 +32,9 @@ void check_strip(const Case& checked, const Substrate& substrate, const std::str
   }
   if (!reading.is_given(from) && !reading.is_given(to)) {
     const bool on_dem = checked.terrain.kind == TerrainKind::dem;
-    reading.report(
-        table,
-        fmt::format("[{}] does not specify its area. Give x_min, x_max or both{}; [basal] applies everywhere else.",
-                    table, on_dem ? ", or outline, or raster and code" : ""));
+    reading.report({table},
+                   "[{}] does not specify its area. Give x_min, x_max or both{}; [basal] applies everywhere else.",
+                   table, on_dem ? ", or outline, or raster and code" : "");
     return;
   }
   reading.refuse_if(
@@ -108,10 +105,10 @@ void check_bed_depth(const Case& checked, Reading& reading) {
     return;
   }
   if (depth.over == InitialField::Over::depth) {
-    reading.report(key,
-                   fmt::format("{} is given by depth; allowed: a number, {{ x = [...], value = [...] }}, {{ "
-                               "attribute = \"NAME\" }} or {{ raster = \"FILE\" }}, since a bed lies on the ground.",
-                               key));
+    reading.report({key},
+                   "{} is given by depth; allowed: a number, {{ x = [...], value = [...] }}, {{ "
+                   "attribute = \"NAME\" }} or {{ raster = \"FILE\" }}, since a bed lies on the ground.",
+                   key);
   } else if (depth.over == InitialField::Over::attribute) {
     reading.refuse_if(
         checked.bed.outline.empty(), {key, "bed.outline"},
@@ -160,11 +157,10 @@ void check_grounds(const Case& checked, Reading& reading) {
     const std::string table = "substrate." + name;
     check_numbers(substrate.numbers, table, reading);
     if (reading.are_valid({"terrain.type"}) && checked.terrain.kind == TerrainKind::none) {
-      reading.report_misfit(
+      reading.report(
           {table, "terrain.type"},
-          fmt::format(
-              "[{}] specifies what bodies slide on, and the case has no terrain. Remove it, or give terrain.type.",
-              table));
+
+          "[{}] specifies what bodies slide on, and the case has no terrain. Remove it, or give terrain.type.", table);
     } else if (!reading.are_valid({table + ".outline", table + ".raster"})) {
       continue;  // already reported
     } else if (substrate.is_strip()) {

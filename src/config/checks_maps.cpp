@@ -1,6 +1,4 @@
 // Checks of map inputs: a DEM as the ground, releases, initial fields of bodies, probes.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/rounding.hpp"
@@ -73,8 +71,7 @@ void check_saturation(const Case& checked, const Body& body, const std::string& 
       key, lowest, absolute_zero, coldest);
 }
 
-// Checks the porosity that follows from an ice content if both are single numbers. Maps and tables are checked for each
-// particle when the body is created.
+// Checks the porosity from an ice content if both are numbers. Maps and tables are checked for each particle.
 void check_ice_content(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
   const std::string key = table + ".ice_content";
   const bool by_saturation = body.saturation.is_given();
@@ -117,9 +114,9 @@ void check_probe(const Probe& probe, const std::string& table, Reading& reading)
 void check_maps(const Case& checked, Reading& reading) {
   if (checked.terrain.kind == TerrainKind::dem && checked.general.dimension != 3 &&
       reading.are_valid({"terrain.type"})) {
-    reading.report_misfit({"terrain.type", "case.dimension"},
-                          "terrain.type is \"dem\", and case.dimension is 2; a DEM is the ground of a 3D case. Set "
-                          "case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`.");
+    reading.report({"terrain.type", "case.dimension"},
+                   "terrain.type is \"dem\", and case.dimension is 2; a DEM is the ground of a 3D case. Set "
+                   "case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`.");
   }
   for (const auto& [name, body] : checked.bodies) {
     const std::string table = "body." + name;

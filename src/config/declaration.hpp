@@ -1,5 +1,5 @@
-// Declared tables of the case file, for reading, errors, the reference, the resolved case and the editor schema. Each
-// parameter is a Rule bound to a member of the Case (table_declaration.hpp).
+// Declared tables of the case file, for reading, errors, reference, resolved case and schema; each parameter is a
+// Rule bound to a member of the Case (table_declaration.hpp).
 #pragma once
 
 #include <memory>
@@ -61,8 +61,7 @@ const Tables& tables();
 // Titles of the tables that have a parameter with this key.
 std::vector<std::string> tables_with(const std::string& key);
 
-// Parts of tables(): parameters_run.cpp, parameters_bodies.cpp and parameters_model.cpp. The last includes those of
-// parameters_basal.cpp.
+// Parts of tables(), by the files parameters_*.cpp; declare_model includes declare_basal.
 void declare_run(Tables& tables);
 void declare_bodies(Tables& tables);
 void declare_model(Tables& tables);

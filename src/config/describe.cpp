@@ -130,8 +130,7 @@ std::string describe_json() {
 std::string describe_markdown() {
   std::string out =
       "# The case file\n\nThis page lists the keys of a case file. `thawslide describe --md` generates it. Angles are "
-      "in "
-      "degrees, temperatures in degrees Celsius, and all other quantities in SI units.\n\n"
+      "in degrees, temperatures in degrees Celsius, and all other quantities in SI units.\n\n"
       "- *allowed*: type, range and keywords of the value. A value outside the range that follows *usually* is "
       "allowed, and `check` and `run` warn. These ranges are assumptions.\n"
       "- *default*: value that applies if the key is not given, or the condition that requires the key. *Only when* is "

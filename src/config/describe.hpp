@@ -14,8 +14,7 @@ std::string describe_json();
 std::string describe_markdown();
 std::string schema_json();
 
-// Case file with every default written out and units in comments; reading it gives the same case. Its inputs are named
-// as files of `input_folder`, relative to the case file.
+// Case file with every default, which reads as the same case. Inputs are named as files of `input_folder`.
 std::string resolved_toml(const Case& parameters, const std::filesystem::path& input_folder);
 
 }  // namespace thawslide::config

@@ -9,13 +9,11 @@
 
 namespace thawslide::config {
 
-// Friction or cohesion law (FrictionLaw, CohesionLaw) of one kind of ground, with its parameters. If the initial
-// cohesion is zero, the parameters of its loss are not needed.
+// Friction or cohesion law (FrictionLaw, CohesionLaw) of one kind of ground; zero cohesion has no loss.
 template <class Laws>
 [[nodiscard]] Laws law_of(const GroundStrength& ground);
 
-// Last time at which a case changes by itself, so that a slide at rest may start again: when ground loses its cohesion,
-// or the band changes its thickness [s]; 0 if there is none.
+// Last time at which ground loses its cohesion or the band changes its thickness [s], so a slide may start again; or 0.
 [[nodiscard]] double last_scheduled_event(const Case& parameters);
 
 struct Strip {

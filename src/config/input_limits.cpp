@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
@@ -17,26 +16,19 @@ void require_size(const fs::path& file, double max_bytes, const std::string& adv
   std::error_code unknown;
   const auto bytes = static_cast<double>(fs::file_size(file, unknown));
   if (!unknown && bytes > max_bytes) {
-    throw UserError(fmt::format("{}: the file has {} MB; allowed: {} MB. {}", file.string(),
-                                rounded_text(bytes / 1e6, 4), count_text(max_bytes / 1e6), advice));
+    throw UserError("{}: the file has {} MB; allowed: {} MB. {}", file.string(), rounded_text(bytes / 1e6, 4),
+                    count_text(max_bytes / 1e6), advice);
   }
 }
 
 std::string read_text_file(const fs::path& file) {
-  const auto fail = [&file](const std::string& reason) {
-    throw UserError(
-        fmt::format("{}: cannot be read: {}. Check that the file is whole and may be read.", file.string(), reason));
-  };
   errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  try {
-    text.assign(std::istreambuf_iterator<char>(stream), {});
-  } catch (const std::ios_base::failure& error) {  // the stream iterator passes on read errors of the file
-    fail(error.code().message());
-  }
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  std::string text(stream ? static_cast<std::size_t>(stream.tellg()) : 0, '\0');
+  stream.seekg(0).read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!stream) {
-    fail(errno != 0 ? std::strerror(errno) : "it cannot be opened");
+    throw UserError("{}: cannot be read: {}. Check that the file is whole and may be read.", file.string(),
+                    std::strerror(errno));
   }
   return text;
 }

@@ -1,5 +1,4 @@
-// Reading of text files, and limits of input sizes: far above the needs of slides, and below what erroneous or
-// malicious files could contain. Larger inputs are refused before or during reading.
+// Reading of text files, and limits of inputs: above the needs of slides, below what erroneous files could contain.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +23,7 @@ void require_size(const std::filesystem::path& file, double max_bytes, const std
 // Text of a file as a whole. Throws UserError with the file, and the system's reason if available.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
-// Replaces by '?' whatever would control a terminal: control characters other than those in `kept`, and marks that
-// change the text direction.
+// Replaces control characters, but for those in `kept`, and marks that change the text direction by '?'.
 [[nodiscard]] std::string printable(std::string text, std::string_view kept = "");
 
 // Text in the form for messages: truncated, and with characters that would control a terminal replaced by '?'.

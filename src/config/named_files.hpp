@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "config/case.hpp"
@@ -10,7 +9,6 @@
 namespace thawslide::config {
 
 struct InputFile {
-  std::string key;  // dotted key that names the file; empty: the case file itself
   std::filesystem::path file;
   bool is_map = false;  // raster or vector data, which may have further files
 };

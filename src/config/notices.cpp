@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -13,9 +12,9 @@ namespace thawslide::config {
 
 namespace {
 
-// Magnitudes between which the numbers of a unit, or of one key, are plausible in any case, unless they are 0. Outside
-// of them, another unit is probable. Without a range: coordinates and lengths of the domain, because a flume and a
-// mountain have any; intervals of output; keys of plausibility.cpp; and keys whose allowed range excludes other units.
+// Magnitudes of plausible numbers, unless 0, by unit or key; outside, another unit is probable. Without a range:
+// coordinates and lengths of the domain, intervals of output, keys of plausibility.cpp, and keys whose allowed range
+// excludes others.
 struct Plausible {
   std::string_view name;
   double low, high;

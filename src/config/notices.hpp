@@ -1,5 +1,4 @@
-// Values of a valid case that are outside the usual range or probably unintended, reported before a run; they are not
-// errors.
+// Values of a valid case that are unusual or probably unintended, reported before a run; they are not errors.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// Parameters of the base: [basal], [substrate.NAME], [bed], [contact], [contact_pair.NAME]. Keywords and parameters of
-// the laws are defined in physics/basal.
+// Parameters of the base: [basal], [substrate.NAME], [bed], [contact], [contact_pair.NAME]; laws: physics/basal.
 #include <algorithm>
 
 #include "config/table_declaration.hpp"
@@ -192,8 +191,7 @@ void declare_bed(Tables& tables) {
                erodible,
                {parameter(&Bed::depth, "depth", "m", at_least(0),
                           "vertical depth of the bed, at most grid.cell; an attribute is that of the polygons of "
-                          "bed.outline; "
-                          "the terrain is not lowered where the bed is entrained")
+                          "bed.outline; the terrain is not lowered where the bed is entrained")
                     .required_if(erodible),
                 parameter(&Bed::strength, "strength", "Pa", at_least(0), "shear strength c_b of the bed without load",
                           {.source = "Iverson (2012)"})

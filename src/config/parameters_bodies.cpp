@@ -1,5 +1,4 @@
-// Parameters of materials, bodies, frames and initial particle positions: [phases], [freezing], [material.NAME],
-// [body.NAME], [frame.NAME], [initial].
+// Parameters of [phases], [freezing], [material.NAME], [body.NAME], [frame.NAME], [initial].
 #include <limits>
 
 #include "config/table_declaration.hpp"

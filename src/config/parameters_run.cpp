@@ -1,5 +1,4 @@
-// Parameters of a run as a whole: [case], [time], [grid], [guards], [terrain], [checkpoint], [maps], [probe.NAME],
-// [report].
+// Parameters of [case], [time], [grid], [guards], [terrain], [checkpoint], [maps], [probe.NAME], [report].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -44,8 +43,7 @@ void declare_grid(Tables& tables) {
                      "lowered, because the time step shortens with the slope")});
   declare(tables, "grid.boundary", "Velocity boundary conditions on the sides of the grid", &Case::grid,
           six_sides(&Grid::boundary, "velocity boundary condition"));
-  // Guards without a choice between stopping and removing indicate a wrong step or case. Removing single particles
-  // would not correct such a run.
+  // Guards without a choice indicate a wrong step or case, which removing particles would not correct.
   declare(
       tables, "guards", "Limits beyond which a run has failed", &Case::guards,
       {parameter(&Guards::not_finite, "not_finite",
@@ -63,8 +61,7 @@ void declare_grid(Tables& tables) {
        parameter(
            &Guards::energy_growth, "energy_growth", "", {.low = 0, .low_open = true, .infinity_allowed = true},
            "maximum growth of energy without a physical cause within about 500 steps, relative to the largest energy "
-           "so "
-           "far, checked every 10 steps; inf: no limit. The reference is at least the energy of a fall by one cell"),
+           "so far, checked every 10 steps; inf: no limit. The reference is at least the energy of a fall by one cell"),
        parameter(&Guards::smallest_step, "smallest_step", "", {.low = 0, .high = 1, .high_open = true},
                  "minimum adaptive time step relative to the first one; below it, the run ends; 0: no limit"),
        parameter(&Guards::most_steps, "most_steps", "", {.low = 1, .infinity_allowed = true},
@@ -106,8 +103,7 @@ void declare_terrain(Tables& tables) {
                           "point spacing to which the DEM is resampled; 0: spacing of the file"),
                 parameter(&Terrain::smooth, "smooth", "m", at_least(0),
                           "standard deviation of the Gaussian filter applied to the DEM; 0: no filter; auto: "
-                          "determined by noise "
-                          "and short bumps of the DEM, no filter on smooth terrain")})}));
+                          "determined by noise and short bumps of the DEM, no filter on smooth terrain")})}));
 }
 
 void declare_output(Tables& tables) {

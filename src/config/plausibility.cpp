@@ -95,8 +95,8 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
   if (has_basal_friction && has_effect && !parameters.band.thickness.is_given()) {
     warnings.add(fmt::format(
         "{}: band.thickness is not given: friction then heats the lowest cells as a whole, {:g} m thick, which barely "
-        "warm or melt. Set the "
-        "thickness of the shear band: typical values are 0.01 to 2 m. Without melting, set heat.enabled = false.",
+        "warm or melt. Set the thickness of the shear band: typical values are 0.01 to 2 m. Without melting, set "
+        "heat.enabled = false.",
         parameters.file, parameters.grid.cell));
   }
 }

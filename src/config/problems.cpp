@@ -49,8 +49,7 @@ char plain_letter(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
-// Edit distance of two words (insert, delete, replace, swap of adjacent letters); ignores letter case, and '-' against
-// '_'.
+// Edit distance (insert, delete, replace, swap adjacent letters); ignores letter case, and '-' against '_'.
 std::size_t edit_distance(const std::string& first, const std::string& second) {
   const std::size_t columns = second.size() + 1;
   std::vector<std::size_t> distance((first.size() + 1) * columns);
@@ -87,9 +86,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   return best;
 }
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise) {
   const std::string best = nearest(word, candidates);
-  return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
+  return best.empty() ? otherwise : fmt::format("; did you mean '{}'?", best);
 }
 
 std::string comma_list(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }

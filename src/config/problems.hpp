@@ -37,8 +37,9 @@ class Problems {
 // Candidate with the smallest edit distance, if it is a likely misspelling; empty otherwise.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-// Text such as "; did you mean 'thickness'?", empty if no candidate is similar.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+// Text such as "; did you mean 'thickness'?", or `otherwise` if no candidate is similar.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise = "");
 
 // "a, b, c"
 std::string comma_list(const std::vector<std::string>& words);

@@ -55,21 +55,21 @@ class ProfileReader {
       columns_ == 0 ? read_header(fields) : read_row(fields);
     }
     if (!stream.eof()) {
-      throw UserError(
-          fmt::format("{}: the profile cannot be read. Check that the file is there and may be read.", file_));
+      throw UserError("{}: the profile cannot be read. Check that the file is there and may be read.", file_);
     }
     if (columns_ == 0) {
       fail("the file holds no header; allowed: distance_m,terrain_elevation_m[,surface_elevation_m]");
     }
     if (table_.distance.size() < 2) {
-      fail(fmt::format("the profile has {} rows; a profile needs at least 2", table_.distance.size()));
+      fail("the profile has {} rows; a profile needs at least 2", table_.distance.size());
     }
     return std::move(table_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    throw UserError(fmt::format("{}:{}: {}.", file_, std::max(line_, 1), message));
+  template <class... Args>
+  [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
+    throw UserError("{}:{}: {}.", file_, std::max(line_, 1), fmt::format(message, std::forward<Args>(args)...));
   }
 
   void read_header(const Fields& fields) {
@@ -77,29 +77,29 @@ class ProfileReader {
         (fields.size() == 2 || fields.size() == 3) && std::equal(fields.begin(), fields.end(), all_columns.begin());
     if (!is_known) {
       fail(
-          fmt::format("the header is '{}'; allowed: distance_m,terrain_elevation_m[,surface_elevation_m], separated by "
-                      "commas. A DEM is read with terrain.type = \"dem\"",
-                      shown(fmt::format("{}", fmt::join(fields, ",")))));
+          "the header is '{}'; allowed: distance_m,terrain_elevation_m[,surface_elevation_m], separated by "
+          "commas. A DEM is read with terrain.type = \"dem\"",
+          shown(fmt::format("{}", fmt::join(fields, ","))));
     }
     columns_ = fields.size();
   }
 
   void read_row(const Fields& fields) {
     if (fields.size() != columns_) {
-      fail(fmt::format("the row has {} fields; the header has {}{}", fields.size(), columns_,
-                       fields.size() == 2 * columns_ ? ". Write decimal points, not commas" : ""));
+      fail("the row has {} fields; the header has {}{}", fields.size(), columns_,
+           fields.size() == 2 * columns_ ? ". Write decimal points, not commas" : "");
     }
     const double distance = number(fields[0], 0);
     const double terrain = number(fields[1], 1);
     if (!table_.distance.empty() && !(distance > table_.distance.back())) {
       fail(
-          fmt::format("the profile folds back: distance_m is {} after {}; allowed: strictly increasing distances. Sort "
-                      "the rows, and leave out overhangs and repeated points",
-                      distance, table_.distance.back()));
+          "the profile folds back: distance_m is {} after {}; allowed: strictly increasing distances. Sort "
+          "the rows, and leave out overhangs and repeated points",
+          distance, table_.distance.back());
     }
     if (!table_.distance.empty() && distance - table_.distance.back() < least_profile_step) {
-      fail(fmt::format("distance_m is {} after {}; allowed: steps of {:g} m and more. Leave one of the two points out",
-                       distance, table_.distance.back(), least_profile_step));
+      fail("distance_m is {} after {}; allowed: steps of {:g} m and more. Leave one of the two points out", distance,
+           table_.distance.back(), least_profile_step);
     }
     table_.distance.push_back(distance);
     table_.terrain.push_back(terrain);
@@ -107,9 +107,9 @@ class ProfileReader {
       const double surface = number(fields[2], 2);
       if (surface < terrain) {
         fail(
-            fmt::format("surface_elevation_m is {}, below terrain_elevation_m, {}; allowed: the same elevation or a "
-                        "higher one",
-                        surface, terrain));
+            "surface_elevation_m is {}, below terrain_elevation_m, {}; allowed: the same elevation or a "
+            "higher one",
+            surface, terrain);
       }
       table_.surface.push_back(surface);
     }
@@ -121,7 +121,7 @@ class ProfileReader {
     double value = 0.0;
     const auto result = std::from_chars(begin, end, value);
     if (result.ptr != end || result.ec != std::errc() || !std::isfinite(value)) {
-      fail(fmt::format("{} is '{}'; allowed: a finite number with a decimal point", all_columns[column], shown(field)));
+      fail("{} is '{}'; allowed: a finite number with a decimal point", all_columns[column], shown(field));
     }
     return value;
   }

@@ -17,10 +17,8 @@ struct ProfileTable {
   [[nodiscard]] double terrain_at(double x) const;
 };
 
-// Reads a CSV file with the header distance_m,terrain_elevation_m[,surface_elevation_m]; lines that start with # and
-// blank lines are skipped. Throws UserError with file and line for: a missing or unreadable file, a wrong header, a row
-// of the wrong length, a value that is not a finite number, distances that do not increase, a surface below the ground,
-// fewer than two rows.
+// Reads the columns distance_m,terrain_elevation_m[,surface_elevation_m], without blank lines and comments (#).
+// Throws UserError, with file and line, for an invalid file.
 ProfileTable read_profile(const std::filesystem::path& file);
 
 }  // namespace thawslide::config

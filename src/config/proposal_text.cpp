@@ -23,10 +23,9 @@ std::string taper_text(const EdgeTaper& taper) {
   }
   return fmt::format(
       "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume is preserved. "
-      "Vertical\n"
-      "# edges would trap the slide. At their steepest, the ramps rise {:.1f} degrees against the DEM, which falls "
-      "{:.1f}\n"
-      "# degrees here{}.\ntaper = {}  # m\n",
+      "Vertical\n# edges would trap the slide. At their steepest, the ramps rise {:.1f} degrees against the DEM, which "
+      "falls "
+      "{:.1f}\n# degrees here{}.\ntaper = {}  # m\n",
       degrees_of(taper.steepest), degrees_of(taper.slope),
       taper.is_cramped() ? fmt::format("; {} m is needed, but the release is too narrow", number_text(taper.wanted))
                          : "",

@@ -25,21 +25,18 @@ fs::path find_case_file(const fs::path& given) {
   }
   const fs::path file = fs::is_directory(given, error) ? given / "case.toml" : given;
   if (const std::string found = other_kind_of_file(file); !found.empty()) {
-    throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", file.string(), found));
+    throw UserError("{} is {}. Give a case file, or a folder with a case.toml.", file.string(), found);
   }
   if (!fs::is_directory(given, error)) {
     const fs::path normal = given.has_filename() ? given : given.parent_path();
-    throw UserError(fmt::format(
-        "{}: there is no such file or folder{} Give a case file, or a folder with a case.toml.", given.string(), [&] {
-          const std::string hint = did_you_mean(normal.filename().string(), names_in(normal.parent_path(), ""));
-          return hint.empty() ? "." : hint;
-        }()));
+    throw UserError("{}: there is no such file or folder{} Give a case file, or a folder with a case.toml.",
+                    given.string(), did_you_mean(normal.filename().string(), names_in(normal.parent_path(), ""), "."));
   }
   if (!fs::is_regular_file(file, error)) {
     const std::vector<std::string> others = names_in(given, ".toml");
-    throw UserError(fmt::format("{}: the folder has no case.toml. {}", given.string(),
-                                others.empty() ? "Give a case file, or a folder with a case.toml."
-                                               : fmt::format("Give one of its case files: {}.", comma_list(others))));
+    throw UserError("{}: the folder has no case.toml. {}", given.string(),
+                    others.empty() ? "Give a case file, or a folder with a case.toml."
+                                   : fmt::format("Give one of its case files: {}.", comma_list(others)));
   }
   return file;
 }
@@ -60,11 +57,10 @@ void report_unknown_tables(const toml::table& root, Reading& reading) {
     const std::vector<std::string> homes = node.is_table() ? std::vector<std::string>{} : tables_with(word);
     const std::vector<std::string> known(top.begin(), top.end());
     const std::string hint =
-        homes.empty() ? did_you_mean(word, known) : fmt::format("; it belongs in {}.", fmt::join(homes, " or "));
-    reading.problems.add(reading.location_of(word, key.source()),
-                         fmt::format("{} is not known{} Allowed: {}.",
-                                     node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table",
-                                     hint.empty() ? "." : hint, comma_list(titles)));
+        homes.empty() ? did_you_mean(word, known, ".") : fmt::format("; it belongs in {}.", fmt::join(homes, " or "));
+    reading.report_at(reading.location_of(word, key.source()), word, "{} is not known{} Allowed: {}.",
+                      node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table", hint,
+                      comma_list(titles));
   }
 }
 
@@ -90,8 +86,8 @@ void read_tables(const toml::table& root, Case& result, Reading& reading) {
   }
 }
 
-// Moves grid.max to whole cells. The domain grows, except where the ground is known only inside it: horizontally on a
-// DEM, and on a profile that does not continue. On both, cells begin at the terrain, and any height of the domain fits.
+// Moves grid.max to whole cells: outwards, or inwards where the ground is known only inside the domain (a DEM, a
+// profile that does not continue). On these, cells begin at the terrain, and any height of the domain fits.
 void fit_domain_to_cells(Case& parameters, Reading& reading) {
   Grid& grid = parameters.grid;
   const auto dimension = static_cast<std::size_t>(reading.dimension);

@@ -1,10 +1,7 @@
 #include "config/reading.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/text.hpp"
 #include "config/input_limits.hpp"
@@ -33,8 +30,7 @@ std::string likely_unit(const Rule& rule, double found) {
   return "";
 }
 
-// Suggestion for a missing file, such as "; did you mean 'profile.csv'?": one in its folder with the same ending. Empty
-// if none is similar.
+// Suggestion for a missing file: one in its folder with the same ending, "; did you mean 'profile.csv'?"; or empty.
 std::string similar_file(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   std::vector<std::string> stems = names_in(file.parent_path(), ending);
@@ -79,18 +75,12 @@ bool Reading::are_valid(std::initializer_list<std::string> dotted) const {
   return std::none_of(dotted.begin(), dotted.end(), [this](const auto& key) { return invalid_keys.count(key) > 0; });
 }
 
-void Reading::report(const std::string& dotted, std::string message) {
-  problems.add(location_of(dotted), std::move(message));
-  invalid_keys.insert(dotted);
-}
-
-void Reading::report_misfit(std::initializer_list<std::string> dotted, std::string message) {
-  const auto set = std::find_if(dotted.begin(), dotted.end(), [this](const std::string& key) {
+Location Reading::location_of_misfit(std::initializer_list<std::string> dotted) const {
+  const auto* const set = std::find_if(dotted.begin(), dotted.end(), [this](const std::string& key) {
     const auto found = locations.find(key);
     return found != locations.end() && found->second.command_line;
   });
-  problems.add(location_of(set == dotted.end() ? *dotted.begin() : *set), std::move(message));
-  invalid_keys.insert(*dotted.begin());
+  return location_of(set == dotted.end() ? *dotted.begin() : *set);
 }
 
 std::string describe_node(const toml::node& node) {
@@ -112,14 +102,6 @@ std::string describe_node(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
-bool ValueReader::fail(const toml::node& node, const std::string& message) const {
-  const std::string remedy =
-      default_text.empty() ? "" : fmt::format(" Correct it, or leave it out for the default {}.", default_text);
-  reading.problems.add(reading.location_of(key, node.source()), fmt::format("{} {}.{}", key, message, remedy));
-  reading.invalid_keys.insert(key);
-  return false;
-}
-
 bool ValueReader::fail_type(const toml::node& node) const {
   std::string message = fmt::format("is {}; allowed: {}", describe_node(node), allowed);
   if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
@@ -131,7 +113,7 @@ bool ValueReader::fail_type(const toml::node& node) const {
     }
     message += comma_advice(text->get());
   }
-  return fail(node, message);
+  return fail(node, "{}", message);
 }
 
 bool ValueReader::finite_number(const toml::node& node, double& value) const {
@@ -140,7 +122,7 @@ bool ValueReader::finite_number(const toml::node& node, double& value) const {
   }
   const double found = *node.value<double>();
   if (!std::isfinite(found)) {
-    return fail(node, fmt::format("is {}; allowed: a finite number", plain_number(found)));
+    return fail(node, "is {}; allowed: a finite number", plain_number(found));
   }
   value = found;
   return true;
@@ -152,8 +134,8 @@ bool ValueReader::number_in_range(const toml::node& node, double& value) const {
   }
   const double found = *node.value<double>();
   if (!rule.range.contains(found)) {
-    return fail(node, fmt::format("is {}; allowed: {}{}{} ({}){}", plain_number(found), rule.range.text(),
-                                  rule.unit.empty() ? "" : " ", rule.unit, rule.text, likely_unit(rule, found)));
+    return fail(node, "is {}; allowed: {}{}{} ({}){}", plain_number(found), rule.range.text(),
+                rule.unit.empty() ? "" : " ", rule.unit, rule.text, likely_unit(rule, found));
   }
   value = found;
   return true;
@@ -181,7 +163,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
   const Override* override = reading.override_of(key, node.source());
   const bool from_command_line = override != nullptr;
   if (path.find('\0') != std::string::npos) {
-    return fail(node, fmt::format("is \"{}\", a name with a zero byte; allowed: a file", shown(path)));
+    return fail(node, "is \"{}\", a name with a zero byte; allowed: a file", shown(path));
   }
   std::error_code error;
   const fs::path base = from_command_line ? override->folder : reading.folder;
@@ -189,21 +171,20 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
   if (!from_command_line) {
     if (fs::path(path).is_absolute() || !lies_within(whole, base)) {
       return fail(node,
-                  fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
-                              "folder. Copy it there, or give its path with --set {}={}",
-                              shown(path), key, form));
+                  "is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
+                  "folder. Copy it there, or give its path with --set {}={}",
+                  shown(path), key, form);
     }
   }
   if (const std::string found = other_kind_of_file(whole); !found.empty()) {
-    return fail(node, fmt::format("is \"{}\", {}; allowed: a file", shown(path), found));
+    return fail(node, "is \"{}\", {}; allowed: a file", shown(path), found);
   }
   if (!fs::is_regular_file(whole, error)) {
     const std::string hint = similar_file(whole);
-    return fail(node,
-                fmt::format("is \"{}\": no such file ({}){} {}: {}", shown(path), shown(whole.parent_path().string()),
-                            hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
-                            from_command_line ? "a file, relative to the current folder"
-                                              : "a file, relative to the folder of the case file"));
+    return fail(node, "is \"{}\": no such file ({}){} {}: {}", shown(path), shown(whole.parent_path().string()),
+                hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
+                from_command_line ? "a file, relative to the current folder"
+                                  : "a file, relative to the folder of the case file");
   }
   path = whole.string();
   return true;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
@@ -39,17 +38,26 @@ struct Reading {
   [[nodiscard]] bool is_given(const std::string& dotted) const { return locations.count(dotted) > 0; }
   // True if none of the keys has a problem, so that checks involving them are meaningful.
   [[nodiscard]] bool are_valid(std::initializer_list<std::string> dotted) const;
-  // Adds a problem at the location of a key, and marks the key as invalid.
-  void report(const std::string& dotted, std::string message);
-  // Adds a problem of several keys at the first of them set by `--set`, because the case file is probably consistent
-  // without it. Otherwise the location is the first key, which is marked as invalid in either case.
-  void report_misfit(std::initializer_list<std::string> dotted, std::string message);
+  // Location of the first of these keys that is set by `--set`, because the case file is probably consistent without
+  // it; otherwise of the first key.
+  [[nodiscard]] Location location_of_misfit(std::initializer_list<std::string> dotted) const;
+  // Adds a problem at a location, and marks a key as invalid.
+  template <class... Args>
+  void report_at(Location location, const std::string& dotted, fmt::format_string<Args...> message, Args&&... args) {
+    problems.add(std::move(location), fmt::format(message, std::forward<Args>(args)...));
+    invalid_keys.insert(dotted);
+  }
+  // Adds a problem of one or several keys, and marks the first one as invalid.
+  template <class... Args>
+  void report(std::initializer_list<std::string> dotted, fmt::format_string<Args...> message, Args&&... args) {
+    report_at(location_of_misfit(dotted), *dotted.begin(), message, std::forward<Args>(args)...);
+  }
   // The same for keys that do not fit each other, unless one of them has a problem already.
   template <class... Args>
   void refuse_if(bool is_misfit, std::initializer_list<std::string> dotted, fmt::format_string<Args...> message,
                  Args&&... args) {
     if (is_misfit && are_valid(dotted)) {
-      report_misfit(dotted, fmt::format(message, std::forward<Args>(args)...));
+      report(dotted, message, std::forward<Args>(args)...);
     }
   }
 };
@@ -62,8 +70,15 @@ struct ValueReader {
   std::string default_text;  // empty: none
   std::string allowed;       // type, range and unit as text
 
-  // Adds "key: message" at the node's location.
-  bool fail(const toml::node& node, const std::string& message) const;
+  // Adds "key message" at the node's location.
+  template <class... Args>
+  bool fail(const toml::node& node, fmt::format_string<Args...> message, Args&&... args) const {
+    const std::string remedy =
+        default_text.empty() ? "" : fmt::format(" Correct it, or leave it out for the default {}.", default_text);
+    reading.report_at(reading.location_of(key, node.source()), key, "{} {}.{}", key,
+                      fmt::format(message, std::forward<Args>(args)...), remedy);
+    return false;
+  }
   // Reports the value found, the values allowed and the remedy.
   bool fail_type(const toml::node& node) const;
   // A finite number.
@@ -72,8 +87,7 @@ struct ValueReader {
   bool number_in_range(const toml::node& node, double& value) const;
   // Array of numbers; `in_range`: each must be in the range of the rule.
   bool numbers(const toml::node& node, std::vector<double>& values, bool in_range) const;
-  // File path; a path in the case file must lie in the case's folder. The path becomes absolute. `form`: form of a path
-  // in a value of the key.
+  // File path, which becomes absolute; in a case file, it must lie in its folder. `form`: of the path in a value.
   bool resolve_path(const toml::node& node, std::string& path, const std::string& form = "PATH") const;
 };
 

@@ -1,5 +1,4 @@
-// Numbers of particles and cells that results need across the thickness of a body, the cost of a finer cell,
-// and the named resolutions of `thawslide new`.
+// Particles and cells that results need across a body, cost of a finer cell, and the resolutions of `thawslide new`.
 #pragma once
 
 #include <array>
@@ -17,8 +16,7 @@ namespace thawslide::config {
 
 inline constexpr double fewest_particles = 4.0;  // across the thickness, for shear and thinning
 
-// Cells across the thickness for maps: the area of the deposit of a slide on a plane is then 4 % too small
-// (docs/theory/contact.md).
+// Cells across the thickness for maps; the deposit on a plane is then 4 % too small (docs/theory/contact.md).
 inline constexpr double cells_for_maps = 4.0;
 
 struct BodyOnCells {
@@ -30,23 +28,18 @@ struct BodyOnCells {
   bool has_maps = false;  // whether the user asks for maps
 };
 
-// Every 3D run writes maps. A case that sets maps.cell or maps.arrival_thickness needs them to be accurate. maps.path
-// does not count: it is the line along which the front is measured.
+// True if the case sets maps.cell or maps.arrival_thickness, and thus needs accurate maps; every 3D run writes them.
 [[nodiscard]] bool requests_maps(const Case& parameters);
 
-// Run time on a finer cell, divided by that on the present one. The number of occupied cells is proportional to 1/cell
-// per axis, and so is the number of time steps, because an elastic wave may not cross a cell in one step.
-//   (cell/finer)^(dimension + 1)
+// Factor of the run time on a finer cell, (cell/finer)^(dimension + 1): cells per axis, and steps of elastic waves.
 [[nodiscard]] double run_time_factor(double cell, double finer, int dimension);
 
-// Warning about a body with too few particles across its median thickness, or with too few cells for maps; empty if
-// there are enough. It starts with `key`, which sets the cell. Any cell fits the domain, which moves to whole cells.
+// Warning about a body with too few particles or cells across its median thickness; `key` sets the cell. Or empty.
 [[nodiscard]] std::string resolution_warning(const BodyOnCells& body, const std::string& key);
 
 enum class Resolution { quick, standard, fine };
 
-// A named resolution, its cells across the thickness of the release, and what cells half as large change: on a plane
-// that runs out, with the material and the transfer of `thawslide new` (benchmarks/decisions/viscosity.md).
+// Named resolution, its cells across the release, and the effect of half the cell (benchmarks/decisions/viscosity.md).
 struct ResolutionFacts {
   Resolution resolution;
   const char* name;
@@ -65,12 +58,8 @@ inline constexpr std::array<ResolutionFacts, 3> resolutions{
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);
 
-// Size [m] of cells that follow the terrain for a release in 3D. thickness [m]: half of the volume is where the release
-// is thinner. median_thickness [m]: half of the area is where it is thinner.
-//   quick      thickness * particles_per_axis / fewest_particles
-//   standard   median_thickness / cells_for_maps
-//   fine       half of standard
-// quick and standard are rounded down to few digits.
+// Size of the cells [m]. quick: thickness particles_per_axis/fewest_particles, where half of the volume is thinner than
+// `thickness`; standard: median_thickness/cells_for_maps; both rounded down. fine: half of standard.
 [[nodiscard]] double cell_of(Resolution resolution, double thickness, double median_thickness, int particles_per_axis);
 
 }  // namespace thawslide::config

@@ -1,5 +1,4 @@
-// Map data of a case: the ground, and the fields of each body on it. Read by the gis module, used by the simulation.
-// Also the profile of a 2D case, from its file or from memory.
+// Map data of a case: ground, and fields of bodies on it. Read by the gis module. Also the profile of a 2D case.
 #pragma once
 
 #include <array>
@@ -24,8 +23,7 @@ struct Release {
   double release_time = 0.0;  // [s], if an attribute of the polygons specifies it
   std::vector<Polyline2> outlines;       // closed rings, for figures; empty if a raster specifies the release
   std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... if given by a map
-  // Only for a body that touches another one, otherwise empty. A point belongs to the body whose outline contains it,
-  // and beyond all outlines to the body with the largest claim.
+  // Only for a body that touches others. A point belongs to the outline around it, or beyond all to the largest claim.
   Raster assigned_thickness;  // vertical thickness [m] in the body's own part, without an edge towards the others
   Raster claim;  // fraction of each point's cell within the outline; beyond all outlines, within reach of its taper
 };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 
 #include "config/case_layers.hpp"
@@ -56,9 +55,8 @@ std::vector<std::string> tables_with(const std::string& key) {
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading) {
   reading.locations[dotted] = reading.location_of(dotted, node.source());
   if (!node.is_table()) {
-    reading.report(dotted,
-                   fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below.",
-                               dotted, describe_node(node), dotted));
+    reading.report({dotted}, "'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below.",
+                   dotted, describe_node(node), dotted);
     return false;
   }
   return true;
@@ -76,12 +74,10 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
     }
     const std::string whole = join(dotted, word);
     const std::vector<std::string> elsewhere = tables_with(word);
-    const std::string hint = elsewhere.empty() ? did_you_mean(word, allowed)
-                                               : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
-    reading.problems.add(reading.location_of(whole, key.source()),
-                         fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
-                                     hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), comma_list(allowed)));
-    reading.invalid_keys.insert(whole);
+    const std::string hint = elsewhere.empty() ? did_you_mean(word, allowed, ".")
+                                               : fmt::format("; it belongs in {}.", fmt::join(elsewhere, " or "));
+    reading.report_at(reading.location_of(whole, key.source()), whole,
+                      "key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted, hint, comma_list(allowed));
   }
 }
 
@@ -97,13 +93,13 @@ std::vector<std::string> table_names(const toml::node& node, const std::string& 
     reading.locations[dotted] =
         reading.location_of(dotted, child.is_table() || !in_file ? child.source() : key.source());
     if (!child.is_table()) {
-      reading.report(dotted, fmt::format("'{}' stands in [{}], which needs a name; write [{}.NAME] with a name of your "
-                                         "choice above it.",
-                                         name, kind, kind));
+      reading.report({dotted},
+                     "'{}' stands in [{}], which needs a name; write [{}.NAME] with a name of your "
+                     "choice above it.",
+                     name, kind, kind);
     } else if (!is_plain_name(name)) {
-      reading.report(
-          dotted,
-          fmt::format("'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'. Rename it.", name, kind));
+      reading.report({dotted}, "'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'. Rename it.", name,
+                     kind);
     } else {
       names.push_back(name);
     }
@@ -121,32 +117,29 @@ std::string reason_for(const std::string& when) {
 
 void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                     Reading& reading) {
-  reading.report(join(table, rule.key),
-                 fmt::format("key '{}' is missing: {}. Add '{} = ...' to [{}]: {}, {}.", join(table, rule.key),
-                             reason_for(when), rule.key, table, rule.text, type));
+  reading.report({join(table, rule.key)}, "key '{}' is missing: {}. Add '{} = ...' to [{}]: {}, {}.",
+                 join(table, rule.key), reason_for(when), rule.key, table, rule.text, type);
 }
 
 void report_empty(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                   Reading& reading) {
   const std::string key = join(table, rule.key);
-  reading.report(key, fmt::format("{} is empty, and {}. Allowed: {}, {}.", key, reason_for(when), rule.text, type));
+  reading.report({key}, "{} is empty, and {}. Allowed: {}, {}.", key, reason_for(when), rule.text, type);
 }
 
 void report_without_meaning(const std::string& table, const Rule& rule, const std::string& when,
                             const std::string& decided_by, Reading& reading) {
   const std::string key = join(table, rule.key), other = join(table, decided_by);
-  reading.report_misfit({key, other},
-                        fmt::format("{} has a meaning only {}. Remove it, or change {}.", key, when, other));
+  reading.report({key, other}, "{} has a meaning only {}. Remove it, or change {}.", key, when, other);
 }
 
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading) {
   if (rule.dimension == 0 || reading.dimension == 0 || rule.dimension == reading.dimension) {
     return true;
   }
-  reading.problems.add(reading.location_of(dotted, node.source()),
-                       fmt::format("{} has a meaning only in {} dimensions, and case.dimension is {}. Remove it.",
-                                   dotted, rule.dimension == 2 ? "two" : "three", reading.dimension));
-  reading.invalid_keys.insert(dotted);
+  reading.report_at(reading.location_of(dotted, node.source()), dotted,
+                    "{} has a meaning only in {} dimensions, and case.dimension is {}. Remove it.", dotted,
+                    rule.dimension == 2 ? "two" : "three", reading.dimension);
   return false;
 }
 

@@ -114,8 +114,7 @@ class Parameter {
     return std::move(*this);
   }
 
-  // The key is allowed only when the condition holds. Otherwise a given key is an error, and the resolved case omits
-  // it.
+  // The key is allowed only when the condition holds, otherwise an error; the resolved case then omits it.
   Parameter only_if(Condition<Section> condition) && {
     meaning = std::move(condition);
     return std::move(*this);

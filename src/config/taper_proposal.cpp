@@ -1,11 +1,6 @@
-// Width of the edges of an excavated release that lets the slide leave the pit.
-//
-// An excavation with upright edges is a pit whose lower wall is as high as the release is thick, and which holds the
-// slide back. A taper of width w along the outline turns the wall into a ramp, whose maximum rise against the terrain
-// is 2 t / w for a release of thickness t at its edge. If this is at most the slope s of the terrain, the base that the
-// slide leaves falls everywhere. The proposal is therefore w = 2 t / s in whole cells. The minimum is 3 t (34 degrees,
-// gentler than the angle at which broken rock stands). The maximum is 10 t (11 degrees, sufficient for nearly level
-// ground).
+// Width of the edges of an excavated release that lets the slide leave the pit. A taper of width w makes its lower wall
+// a ramp that rises by 2 t / w against the terrain, t: thickness at the edge. If that is at most the slope s of the
+// terrain, the base falls everywhere: w = 2 t / s in whole cells, at least 3 t (34 degrees), at most 10 t (11 degrees).
 #include <algorithm>
 #include <cmath>
 
@@ -37,8 +32,7 @@ Raster window_of(const Raster& values, const Raster& thickness, int margin, doub
   return window;
 }
 
-// Number of steps from each point to the nearest one for which `is(value)` holds, along rows, columns and diagonals
-// (Rosenfeld and Pfaltz 1968).
+// Steps along rows, columns and diagonals to the nearest point for which `is(value)` holds (Rosenfeld and Pfaltz 1968).
 template <class Is>
 Raster steps_to(const Raster& window, const Is& is) {
   Raster steps = window;

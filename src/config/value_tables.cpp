@@ -33,8 +33,8 @@ bool fail_keys(const toml::node& node, const ValueReader& at) {
   for (const auto& [key, value] : *node.as_table()) {
     keys.emplace_back(key.str());
   }
-  return at.fail(node, fmt::format("is a table with {}; allowed: {}",
-                                   keys.empty() ? "no key" : "the keys " + comma_list(keys), at.allowed));
+  return at.fail(node, "is a table with {}; allowed: {}", keys.empty() ? "no key" : "the keys " + comma_list(keys),
+                 at.allowed);
 }
 
 // Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending; two equal abscissae form a jump.
@@ -45,18 +45,17 @@ bool read_table(const toml::table& node, const std::string& abscissa, const Valu
     return false;
   }
   if (found.abscissa.size() != found.value.size() || found.value.empty()) {
-    return at.fail(node, fmt::format("has {} entries of {} and {} of value; allowed: as many of both, at least one",
-                                     found.abscissa.size(), abscissa, found.value.size()));
+    return at.fail(node, "has {} entries of {} and {} of value; allowed: as many of both, at least one",
+                   found.abscissa.size(), abscissa, found.value.size());
   }
   for (std::size_t k = 1; k < found.abscissa.size(); ++k) {
     const bool descends = found.abscissa[k] < found.abscissa[k - 1];
     const bool jumps_here = found.abscissa[k] == found.abscissa[k - 1];
     const bool third_at_a_jump = k > 1 && found.abscissa[k] == found.abscissa[k - 2];
     if (descends || third_at_a_jump || (jumps_here && !may_jump)) {
-      return at.fail(*node.get(abscissa)->as_array()->get(k),
-                     fmt::format("holds {} {} after {}; allowed: {}", abscissa, plain_number(found.abscissa[k]),
-                                 plain_number(found.abscissa[k - 1]),
-                                 may_jump ? "ascending, and a jump as two equal entries" : "strictly increasing"));
+      return at.fail(*node.get(abscissa)->as_array()->get(k), "holds {} {} after {}; allowed: {}", abscissa,
+                     plain_number(found.abscissa[k]), plain_number(found.abscissa[k - 1]),
+                     may_jump ? "ascending, and a jump as two equal entries" : "strictly increasing");
     }
   }
   table = std::move(found);
@@ -69,9 +68,8 @@ bool read_source(const toml::table& table, const std::string& key, const ValueRe
   const bool is_name = key == "attribute";
   const auto* text = node.as_string();
   if (text == nullptr || text->get().empty()) {
-    return at.fail(node, fmt::format("has {} as its {}; allowed: {}", describe_node(node), key,
-                                     is_name ? "the name of an attribute of the polygons, in quotes"
-                                             : "the path of a file, in quotes"));
+    return at.fail(node, "has {} as its {}; allowed: {}", describe_node(node), key,
+                   is_name ? "the name of an attribute of the polygons, in quotes" : "the path of a file, in quotes");
   }
   std::string found = text->get();
   if (!is_name && !at.resolve_path(node, found, fmt::format("'{{ {} = \"PATH\" }}'", key))) {
@@ -189,8 +187,8 @@ bool Value<WidthOverX>::read(const toml::node& node, const ValueReader& at, Widt
   for (std::size_t k = 0; k < found.table.abscissa.size(); ++k) {
     if (!(found.table.value[k] > 0.0)) {
       return at.fail(*node.as_table()->get("value")->as_array()->get(k),
-                     fmt::format("holds the value {} at x = {}; allowed in a table: > 0",
-                                 plain_number(found.table.value[k]), plain_number(found.table.abscissa[k])));
+                     "holds the value {} at x = {}; allowed in a table: > 0", plain_number(found.table.value[k]),
+                     plain_number(found.table.abscissa[k]));
     }
   }
   value.table = std::move(found.table);
@@ -276,7 +274,7 @@ bool Value<HeatBoundary>::read(const toml::node& node, const ValueReader& at, He
     return false;
   }
   if (is_temperature && found.value <= -273.15) {
-    return at.fail(number, fmt::format("has the temperature {}; allowed: > -273.15 C", plain_number(found.value)));
+    return at.fail(number, "has the temperature {}; allowed: > -273.15 C", plain_number(found.value));
   }
   value = found;
   return true;

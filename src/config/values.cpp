@@ -137,8 +137,8 @@ bool read_keyword(const toml::node& node, const ValueReader& at, const std::vect
   }
   if (std::find(names.begin(), names.end(), text->get()) == names.end()) {
     const std::string hint = did_you_mean(text->get(), names);
-    return at.fail(node, fmt::format("is \"{}\"{}: {}", shown(text->get()),
-                                     hint.empty() ? "; allowed" : hint + " Allowed", keyword_list(keywords)));
+    return at.fail(node, "is \"{}\"{}: {}", shown(text->get()), hint.empty() ? "; allowed" : hint + " Allowed",
+                   keyword_list(keywords));
   }
   found = text->get();
   return true;
@@ -182,8 +182,7 @@ bool Value<int>::read(const toml::node& node, const ValueReader& at, int& value)
   }
   constexpr double largest = std::numeric_limits<int>::max();
   if (std::abs(number) > largest) {
-    return at.fail(node,
-                   fmt::format("is {:.0f}; allowed: whole numbers up to {:.0f} ({})", number, largest, at.rule.text));
+    return at.fail(node, "is {:.0f}; allowed: whole numbers up to {:.0f} ({})", number, largest, at.rule.text);
   }
   value = static_cast<int>(number);
   return true;
@@ -244,7 +243,7 @@ bool Value<Names>::read(const toml::node& node, const ValueReader& at, Names& va
   for (const toml::node& element : *array) {
     const auto* text = element.as_string();
     if (text == nullptr) {
-      return at.fail(element, fmt::format("holds {}; allowed: {}", describe_node(element), at.allowed));
+      return at.fail(element, "holds {}; allowed: {}", describe_node(element), at.allowed);
     }
     found.push_back(text->get());
   }
@@ -272,8 +271,8 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
     const std::string allowed = at.rule.horizontal ? "2 numbers, x and y"
                                 : dimension == 0   ? "2 or 3 numbers"
                                                    : fmt::format("{0} numbers, as case.dimension is {0}", dimension);
-    return at.fail(node, fmt::format("is an array of {} numbers; allowed: {}{}", size, allowed,
-                                     size > 0 && size == 2 * dimension ? ". Write decimal points, not commas" : ""));
+    return at.fail(node, "is an array of {} numbers; allowed: {}{}", size, allowed,
+                   size > 0 && size == 2 * dimension ? ". Write decimal points, not commas" : "");
   }
   value = {found[0], found[1], found.size() > 2 ? found[2] : 0.0};
   return true;
@@ -303,7 +302,7 @@ bool Value<Vertices>::read(const toml::node& node, const ValueReader& at, Vertic
       return false;
     }
     if (pair.size() != 2) {
-      return at.fail(element, fmt::format("holds a vertex of {} numbers; allowed: pairs [x, y]", pair.size()));
+      return at.fail(element, "holds a vertex of {} numbers; allowed: pairs [x, y]", pair.size());
     }
     found.push_back({pair[0], pair[1]});
   }
@@ -328,8 +327,8 @@ bool Value<Numbers>::read(const toml::node& node, const ValueReader& at, Numbers
   }
   for (std::size_t k = 1; k < found.size(); ++k) {
     if (!(found[k] > found[k - 1])) {
-      return at.fail(*node.as_array()->get(k), fmt::format("holds {} after {}; allowed: ascending numbers",
-                                                           plain_number(found[k]), plain_number(found[k - 1])));
+      return at.fail(*node.as_array()->get(k), "holds {} after {}; allowed: ascending numbers", plain_number(found[k]),
+                     plain_number(found[k - 1]));
     }
   }
   value = std::move(found);

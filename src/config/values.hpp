@@ -1,8 +1,6 @@
 // Form of each type of the Case in a case file: reading, writing, description, editor schema.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,8 +20,7 @@ struct WriteContext {
   std::filesystem::path input_folder;  // if not empty, paths consist of this folder and the file's name
 };
 
-// Each specialization has: type (text), read (reports problems and returns false if the node is invalid), write (TOML
-// text), schema (JSON schema), keywords (keywords allowed, if any).
+// Has type (text), read (reports problems; returns if the node is valid), write (TOML), schema (JSON), and keywords.
 template <class T>
 struct Value;
 

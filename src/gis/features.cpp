@@ -49,10 +49,9 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
     return alike.front();
   }
   const std::vector<std::string> there = all_shown(layer.attributes);
-  const std::string hint = config::did_you_mean(name, there);
   throw UserError("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name, key,
                   there.empty() ? "none" : config::comma_list(there),
-                  hint.empty() ? ". Correct the name, or add the attribute." : hint);
+                  config::did_you_mean(name, there, ". Correct the name, or add the attribute."));
 }
 
 std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,

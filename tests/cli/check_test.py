@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -21,8 +20,9 @@ def test_a_run_is_kept_until_a_case_replaces_it(ran: Ran, thawslide: Program, sm
     (small_case / "reports" / "data.csv").write_text("quantity,time_s,value,unit,source\n")
     file = small_case / "case.toml"
     file.write_text(file.read_text() + '\n[report]\ntargets = "reports/data.csv"\n')
+    message = f"error: {small_case}/data.csv and {small_case}/reports/data.csv have the same name; "
     for words in (["check", small_case], ["run", small_case, "--output", run, "--overwrite"]):
-        assert re.match(rf"error: {re.escape(str(file))}:\d+:11: report\.targets leads to ", thawslide.error(*words))
+        assert thawslide.error(*words).startswith(message)
     assert content_of(run) == before
 
 
@@ -100,7 +100,7 @@ def test_zero_drainage_by_default_has_a_warning(thawslide: Program, small_case: 
 def test_an_error_during_reading_is_reported_with_file_and_reason(thawslide: Program, small_case: Path) -> None:
     broken = small_case / "broken.csv"
     broken.symlink_to("/proc/self/mem")
-    message = f"{broken}: cannot be read: Input/output error. Check that the file is whole and may be read.\n"
+    message = f"{broken}: cannot be read: Invalid argument. Check that the file is whole and may be read.\n"
     outcome = thawslide("check", broken)
     assert (outcome.returncode, outcome.stderr) == (2, f"error: {message}")
 

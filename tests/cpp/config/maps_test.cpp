@@ -65,7 +65,7 @@ TEST_F(Maps, AreCopiedWithTheRun) {
              "thickness = { attribute = \"map.tif\" }\ntemperature = { raster = \"map.tif\" }\n"
              "[maps]\npath = \"line.geojson\"\n[probe.section]\nline = \"section.geojson\"\n[basal]"}});
   std::set<std::string> names;
-  for (const auto& [key, file, is_map] : named_files(found)) {
+  for (const auto& [file, is_map] : named_files(found)) {
     EXPECT_EQ(is_map, file.filename() != "case.toml") << file;
     EXPECT_EQ(file.parent_path(), folder_of_this_test());
     EXPECT_TRUE(names.insert(file.filename().string()).second) << file << " is listed once";
@@ -82,7 +82,7 @@ TEST_F(Maps, AreCopiedWithTheRun) {
   EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
   EXPECT_EQ(again.bodies.at("slide").release, (run / "inputs" / "release.shp").string());
   EXPECT_EQ(again.bodies.at("other").thickness.source, "map.tif") << "an attribute is not a file";
-  for (const auto& [key, file, is_map] : named_files(again)) {
+  for (const auto& [file, is_map] : named_files(again)) {
     EXPECT_TRUE(file == run / "case.toml" || file.parent_path() == run / "inputs") << file;
   }
 }

@@ -24,7 +24,7 @@ TEST(TextFile, ThatIsUnreadableIsReportedWithTheReason) {
             "/nowhere/case.toml: cannot be read: No such file or directory. Check that the file is whole and may be "
             "read.");
   EXPECT_EQ(refusal_of("/proc/self/mem"),
-            "/proc/self/mem: cannot be read: Input/output error. Check that the file is whole and may be read.")
+            "/proc/self/mem: cannot be read: Invalid argument. Check that the file is whole and may be read.")
       << "it opens, and its first byte is an error";
 }
 
