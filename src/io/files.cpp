@@ -3,9 +3,6 @@
 #include <openssl/evp.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <vector>
 
 #include "base/atomic_file.hpp"
@@ -58,14 +55,7 @@ void remove_or_throw(const fs::path& file) {
 
 std::string read_file(const fs::path& file) {
   require_regular(file);
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  std::string text(stream ? static_cast<std::size_t>(stream.tellg()) : 0, '\0');
-  stream.seekg(0).read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream) {
-    throw UserError("cannot read {}: {}", file.string(), std::strerror(errno));
-  }
-  return text;
+  return config::read_text_file(file);
 }
 
 void require_regular(const fs::path& file) {

@@ -39,7 +39,9 @@ TEST_F(Files, EmptyOnesAreReadAndMissingOnesAreRefused) {
   write_file_atomically(folder_ / "empty.txt", "");
   EXPECT_EQ(read_file(folder_ / "empty.txt"), "");
   const fs::path missing = folder_ / "missing.txt";
-  EXPECT_EQ(failure_of([&] { read_file(missing); }), "cannot read " + missing.string() + ": No such file or directory");
+  EXPECT_EQ(
+      failure_of([&] { read_file(missing); }),
+      missing.string() + ": cannot be read: No such file or directory. Check that the file is whole and may be read.");
 }
 
 TEST_F(Files, ProvenanceIsWrittenForTextsThatAreNotUnicode) {

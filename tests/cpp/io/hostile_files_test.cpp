@@ -32,7 +32,8 @@ TEST_F(HostileFiles, OnlyRegularFilesAreRead) {
   EXPECT_EQ(failure_of([&] { read_file(pipe); }), refusal(pipe, "a pipe"));
   EXPECT_EQ(failure_of([&] { read_file(endless); }), refusal(endless, "a device"));
   EXPECT_EQ(failure_of([&] { read_file(folder_); }), refusal(folder_, "a folder"));
-  EXPECT_EQ(failure_of([&] { read_file(damaged); }), "cannot read " + damaged.string() + ": Invalid argument");
+  EXPECT_EQ(failure_of([&] { read_file(damaged); }),
+            damaged.string() + ": cannot be read: Invalid argument. Check that the file is whole and may be read.");
   EXPECT_EQ(failure_of([&] { (void)last_time_in_history(pipe); }), refusal(pipe, "a pipe"));
 }
 
@@ -139,9 +140,11 @@ TEST_F(HostileCheckpoints, AnUnreadableOneIsReplacedByThePreviousOne) {
   ASSERT_EQ(mkfifo(last().c_str(), 0600), 0);
   expect_passed_over(last().string() + " is a pipe, no file");
   fs::create_symlink("/proc/self/mem", last());
-  expect_passed_over("cannot read " + last().string() + ": Invalid argument");
+  const std::string begin = last().string() + ": cannot be read: ",
+                    advice = ". Check that the file is whole and may be read.";
+  expect_passed_over(begin + "Invalid argument" + advice);
   fs::create_symlink("nothing", last());  // the next checkpoint must not replace the valid one by it
-  expect_passed_over("cannot read " + last().string() + ": No such file or directory");
+  expect_passed_over(begin + "No such file or directory" + advice);
 }
 
 TEST_F(HostileCheckpoints, AMissingOneIsReportedWithoutADamagedFile) {
