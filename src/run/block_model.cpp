@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
@@ -52,34 +51,28 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Wa
         "along the path drives the block",
         section.off_steepest);
   }
-  const auto first_beyond = [&](double end) {
-    return std::ranges::find_if(rows,
-                                [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
-  };
+  const double end = section.pit ? section.pit->along : section.site.profile.distance.back();
+  auto beyond =
+      std::ranges::find_if(rows, [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
+  const bool is_reached = beyond != rows.end();
+  const std::string time = is_reached ? rounded_text(value_of(*beyond, "time_s"), 3) : "";
   if (section.pit) {
-    const auto beyond = first_beyond(section.pit->along);
     observer.line("warning: the flow path ends in a closed depression after {} m, at x = {}, y = {}{}",
-                  rounded_text(section.pit->along, 3), coordinate_text(section.pit->point[0]),
-                  coordinate_text(section.pit->point[1]),
-                  beyond == rows.end() ? ", which the front does not reach"
-                                       : fmt::format(". The front reaches it at {} s, and the block stops there. Set "
-                                                     "maps.path to a longer line to follow the slide further",
-                                                     rounded_text(value_of(*beyond, "time_s"), 3)));
-    rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
-    report_valley_factor(rows, observer);
-    return rows;
-  }
-  const double end = section.site.profile.distance.back();
-  const auto beyond = first_beyond(end);
-  if (beyond != rows.end()) {
+                  rounded_text(end, 3), coordinate_text(section.pit->point[0]), coordinate_text(section.pit->point[1]),
+                  is_reached
+                      ? fmt::format(". The front reaches it at {} s, and the block stops there. Set maps.path to "
+                                    "a longer line to follow the slide further",
+                                    time)
+                      : ", which the front does not reach");
+    beyond += is_reached ? 1 : 0;
+  } else if (is_reached) {
     observer.line(
         "warning: maps.path: the front leaves the DEM after {} m, at {} s, and the table ends there. Use {} to follow "
         "it further",
-        with_commas(end, 3), rounded_text(value_of(*beyond, "time_s"), 3),
-        section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
-    // The first row is kept: the ground is known below the whole release.
-    rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
+        with_commas(end, 3), time, section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
+    beyond = std::max(beyond, rows.begin() + 1);  // the ground is known below the whole release
   }
+  rows.erase(beyond, rows.end());
   report_valley_factor(rows, observer);
   return rows;
 }
@@ -106,8 +99,7 @@ std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Ob
   return rows;
 }
 
-// Base whose band is the thinnest that config::ProposedBase allows. run(): rows of the block of `parameters`. end: of
-// the known terrain [m].
+// Thinnest band that config::ProposedBase allows. run(): rows of the block of `parameters`; end: of the terrain [m].
 template <class Run>
 config::ProposedBase thinnest_band(config::Case& parameters, double end, const Run& run) {
   config::ProposedBase base;
@@ -143,7 +135,7 @@ double value_of(const sim::HistoryRow& row, const std::string& name) {
       return number;
     }
   }
-  throw InternalError("the block model has no column " + name);
+  throw InternalError("no column is called " + name);
 }
 
 std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 #include "config/named_files.hpp"
 #include "gis/data_set.hpp"
 
@@ -61,10 +62,8 @@ void require_readable_inputs(const config::Case& parameters) {
 }
 
 void require_no_input_in(const fs::path& folder, const config::Case& parameters) {
-  const fs::path runs_folder = fs::weakly_canonical(folder);
   for (const fs::path& input : input_files(parameters)) {
-    const fs::path relative = fs::weakly_canonical(input).lexically_relative(runs_folder);
-    if (!relative.empty() && *relative.begin() != "..") {
+    if (config::lies_within(input, folder)) {
       throw UserError("{} lies in the output folder {}. Give another --output{}.", input.string(), folder.string(),
                       fs::exists(folder / "run.json") ? ", or continue that run: thawslide resume" : "");
     }

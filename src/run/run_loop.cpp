@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
+#include "run/block_model.hpp"
 #include "run/step_warnings.hpp"
 #include "sim/direction.hpp"
 #include "sim/records/history.hpp"
@@ -17,8 +18,7 @@ namespace thawslide::run {
 
 namespace {
 
-// Settles the body if the case requires it. If this fails, files are written as for any other failed run. Returns false
-// if it was interrupted.
+// Settles the body if required. If this fails, files are written as for any failed run. False if it was interrupted.
 template <int Dim>
 bool settle(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, Observer& observer) {
   if (!simulation.needs_settling()) {
@@ -35,8 +35,7 @@ bool settle(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, Observer& 
   }
 }
 
-// Ends a run after a failed write or a GPU error: all files are intact, and the run can resume from its last
-// checkpoint.
+// Ends a run after a failed write or a GPU error: all files are intact, and it can resume from its last checkpoint.
 template <int Dim>
 ExitCode end_at_once(const sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::exception& error,
                      ExitCode code, const std::filesystem::path& folder, Observer& observer) {
@@ -116,9 +115,7 @@ void report_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>
                 output.provenance().parts.back().particle_steps / wall / 1e6, thread_count() == 1 ? "" : "at most ",
                 thread_count(), thread_count() == 1 ? "" : "s");
   const sim::HistoryRow row = output.history_row(simulation);
-  const auto value = [&](const std::string& name) {
-    return std::ranges::find_if(row, [&](const auto& entry) { return entry.first == name; })->second;
-  };
+  const auto value = [&](const std::string& name) { return value_of(row, name); };
   observer.line("{}: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}", sim::when_text(output.end_state()),
                 value("mean_velocity_m_s"), value("mean_displacement_m"),
                 front_text(value("front_position_m"), value("runout_m")));
@@ -260,8 +257,7 @@ class Loop {
   }
 
   ExitCode end_interrupted(const std::string& interruption) {
-    // The checkpoint stores this state. A row or a snapshot is omitted, because an uninterrupted run would not have
-    // written it.
+    // The checkpoint stores this state, without a row or a snapshot, which an uninterrupted run would not have written.
     output_.write_checkpoint(simulation_);
     close("stopped", interruption);
     observer_.error_line("interrupted by {} at t = {:g} s. To continue: thawslide resume {}", interruption,
@@ -338,8 +334,7 @@ void Schedule::pass(double time, double step) {
   if (interval_ <= 0.0) {
     return;
   }
-  // Computes the first multiple after the time directly, because counting takes too long for tiny intervals. Rounding
-  // of the quotient may make the floor too small by up to two.
+  // First multiple after the time, computed directly for tiny intervals. Rounding may make the floor too small by two.
   const double beyond = time + early_ * step;
   count_ = std::max(count_, std::floor(beyond / interval_));
   for (int k = 0; k < 2 && count_ * interval_ <= beyond; ++k) {
