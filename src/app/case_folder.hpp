@@ -23,8 +23,7 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps);
 // Reads the map files of such a case and prints warnings. A UserError names options, not keys. Requires GDAL.
 config::Site open_site(const config::Case& trial);
 
-// Sets the taper of a release that is excavated from the DEM, so that the slide can leave the pit, and reports where
-// space for it is missing. `site`: of the case so far, without excavation. Requires GDAL.
+// Sets the taper of an excavated release, so that the slide can leave the pit, and reports where space is missing.
 config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site);
 
 // The same as open_site for files already inspected: prints nothing.

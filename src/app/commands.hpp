@@ -78,8 +78,7 @@ struct DescribeOptions {
 };
 int describe_parameters(const DescribeOptions& options);
 
-// Replaces the process by `thawslide-NAME` of the Python package, with the given arguments; returns only if it is not
-// found.
+// Replaces the process by `thawslide-NAME` of the Python package; returns only if it is not found.
 int run_python_command(const std::string& name, const std::vector<std::string>& arguments);
 
 // Version, commit and compiler.

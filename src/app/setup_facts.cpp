@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/rounding.hpp"
 #include "physics/basal/laws.hpp"

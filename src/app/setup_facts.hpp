@@ -1,5 +1,4 @@
-// Findings of `thawslide check`, reported with the same content as text and as JSON, and the figure of a case, plotted
-// by thawslide-report --setup from JSON: terrain, grid, bodies, boundaries and frames.
+// Findings of `thawslide check`, as text and as JSON, and the figure of a case, plotted by thawslide-report --setup.
 #pragma once
 
 #include <filesystem>
@@ -80,8 +79,7 @@ struct SetupFacts {
 // setup: from setup_json. Throws UserError if thawslide-report is not found, or fails.
 void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture);
 
-// A map if the terrain is a DEM, otherwise a section along x. Heights of a DEM are thinned to the resolution of a
-// figure.
+// A map if the terrain is a DEM, thinned to the resolution of a figure, otherwise a section along x.
 template <int Dim>
 nlohmann::ordered_json setup_json(const sim::Simulation<Dim>& simulation);
 

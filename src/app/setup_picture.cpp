@@ -44,8 +44,7 @@ Json thinned(const Raster& raster) {
           {"heights", values}};
 }
 
-// Names of the substrates, and the number of the substrate at given points: 0 if there is none. Null if the case has no
-// substrates.
+// Names of the substrates, and their numbers at given points, 0 if there is none. Null if the case has none.
 template <int Dim>
 Json substrates_json(const sim::Simulation<Dim>& simulation, const Json& numbers) {
   if (numbers.is_null()) {

@@ -136,8 +136,7 @@ std::string block_text() {
   return fmt::format("\n## {}\n", group.title) + columns_text(group, "column");
 }
 
-// Reference of the tables, datasets and maps of a run, from their declarations: the page "Columns, datasets and maps"
-// of the site.
+// Tables, datasets and maps of a run, from their declarations: the page "Columns, datasets and maps" of the site.
 std::string describe_outputs() {
   return head + history_text() + probes_text() + "\n## Snapshots\n" + fields_text() + base_text() + "\n## Maps\n" +
          maps_text() + block_text();

@@ -1,7 +1,6 @@
 #include "app/terminal.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// Run on a terminal or in a log: lines, progress as a bar on a terminal and as plain lines otherwise. Signals and
-// standard streams of the process, and programs of the Python package. Ctrl-C and kill: a run completes its step,
-// writes its state and stops with exit code 4.
+// Run on a terminal or in a log, with its progress and signals, and programs of the Python package. Ctrl-C and kill: a
+// run completes its step, writes its state and stops with exit code 4.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,8 +16,7 @@ class Terminal final : public run::Observer {
  public:
   Terminal();
 
-  // From the first call on, SIGINT, SIGTERM and SIGHUP interrupt the run; a second one ends the program immediately.
-  // Signals that are already ignored, as under nohup, remain ignored.
+  // From here on, SIGINT, SIGTERM and SIGHUP, unless ignored, interrupt the run; a second one ends the program.
   void start(double time) override;
   void text(const std::string& line) override;
   void error(const std::string& line) override;
@@ -36,20 +34,16 @@ class Terminal final : public run::Observer {
   double start_, last_;  // wall-clock time [s]
 };
 
-// Occupies standard streams that the parent process has closed, so that no later file takes their descriptors and
-// receives messages. Reading and writing such a stream fails as before.
+// Occupies standard streams that the parent has closed, so that no file takes their descriptors and gets messages.
 void open_standard_streams();
 
-// Path of a program such as thawslide-report next to this program, as in an installed package, or in the .venv of the
-// checkout in which this program was built; otherwise its name, which is then searched on PATH.
+// Path of a program such as thawslide-report: next to this one, in .venv of its checkout, or its name, for PATH.
 std::string python_program(const std::string& name);
 
 // "It is part of ...": where to get such a program, for messages.
 extern const char* const python_program_remedy;
 
-// Output during the work. If it cannot be written (a closed pipe, a full disk), the work continues. For commands whose
-// results are their output, main.cpp reports the loss at the end.
-// Ignores a stream that cannot be written.
+// Output during the work, which continues if it cannot be written. main.cpp reports lost results of other commands.
 inline void put(std::FILE* stream, const std::string& text) {
   (void)std::fwrite(text.data(), 1, text.size(), stream);
   (void)std::fflush(stream);

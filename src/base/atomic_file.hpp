@@ -16,13 +16,11 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Temporary path to write to: .NAME.PROCESS.thawslide-part in the same folder, with the file's own extension, which
-  // GDAL checks.
+  // Path to write to, .NAME.PROCESS.thawslide-part in the same folder, with the file's own extension, for GDAL.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   // Creates the temporary file with this content. Throws WriteError with the system's reason.
   void write(const void* data, std::size_t bytes);
-  // Synchronizes the temporary file to disk and renames it. previous: name under which an existing file is kept.
-  // Throws WriteError with the system's reason.
+  // Synchronizes the file to disk and renames it; an existing one is kept as `previous`. Throws WriteError.
   void publish(const std::filesystem::path& previous = {});
   // Throws WriteError with the file and the reason.
   [[noreturn]] void fail(const std::string& reason) const;

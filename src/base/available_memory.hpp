@@ -11,15 +11,13 @@ struct AvailableMemory {
   std::string bound;  // the limiting bound, as words that follow an amount: "are free"
 };
 
-// Minimum of the free memory of the machine, the remaining address space (ulimit -v), and the memory left by the
-// control groups of this process (containers and batch systems). Excludes swap.
+// Minimum of the free memory without swap, the remaining address space (ulimit -v), and that left by control groups.
 [[nodiscard]] AvailableMemory available_memory();
 
 // Memory available without swapping according to /proc/meminfo [bytes]; NaN if not stated.
 [[nodiscard]] double available_in(const std::string& meminfo);
 
-// Memory left by control groups [bytes], from the text of /proc/self/cgroup and the mount folder; infinite without a
-// limit, and for control groups of the first version. File pages that the system may drop count as free.
+// Memory left by control groups of version 2 [bytes], without droppable file pages; infinite without a limit.
 [[nodiscard]] double left_by_control_groups(const std::string& membership, const std::filesystem::path& mount);
 
 }  // namespace thawslide

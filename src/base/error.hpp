@@ -52,8 +52,7 @@ class DeviceError : public FormattedError {
   using FormattedError::FormattedError;
 };
 
-// Run that failed (not finite, outside the domain, inverted). The message names particle, place, time and probable
-// cause. Exit code 3.
+// Run that failed (not finite, outside, inverted), with particle, place, time and probable cause. Exit code 3.
 class RunError : public FormattedError {
  public:
   using FormattedError::FormattedError;
@@ -74,8 +73,7 @@ class InternalError : public std::logic_error {
 
 }  // namespace thawslide
 
-// Checks an invariant of the program. The further arguments (a fmt format and values) are added to the message; devices
-// report only the condition.
+// Checks an invariant of the program. Further arguments are a fmt format and values; devices report only the condition.
 #ifdef __CUDACC__
 #define THAWSLIDE_ASSERT(condition, ...) assert(condition)
 #else

@@ -47,8 +47,7 @@ struct LineView {
     return (segments + segments_of_box - 1) / segments_of_box;
   }
 
-  // Projects a place onto the nearest point of the line, which is extended straight beyond both ends. Of equally near
-  // points, the one closer to the first corner is used.
+  // Projects onto the nearest point, the first of equally near ones. The line continues straight beyond both ends.
   [[nodiscard]] THAWSLIDE_HD LinePosition project(const Point2& point) const {
     Nearest nearest;
     project_onto(0, point, nearest);  // these two extend beyond the boxes

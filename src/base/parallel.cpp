@@ -3,14 +3,9 @@
 #include <omp.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdlib>
 #include <exception>
-
-#include "base/aligned.hpp"
-#include "base/error.hpp"
 
 namespace thawslide {
 

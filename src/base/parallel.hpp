@@ -18,8 +18,7 @@ namespace thawslide {
 [[nodiscard]] int thread_count();
 void set_thread_count(int threads);
 
-// Ends the threads that wait for the calling thread's next loop, which starts others. A forked process has no copies of
-// them, and its first loop would wait for them for ever.
+// Ends the waiting threads, before a fork: the new process has no copies of them and would wait for them for ever.
 void end_waiting_threads();
 
 // Number of cores available to this process.
@@ -43,22 +42,18 @@ class ThreadScope {
 // Loops with fewer calls than this run on the calling thread, because waking others would cost more.
 inline constexpr std::size_t fewest_shared_calls = 9;
 
-// Makes waiting threads spin for a few microseconds, which avoids most system calls within a step, and then sleep, to
-// release the core to other processes. The OpenMP library reads this setting before main begins; the program therefore
-// restarts itself once with it, unless the user has set OMP_WAIT_POLICY.
+// Makes waiting threads spin for microseconds and then sleep, unless OMP_WAIT_POLICY is set. Restarts the program, as
+// OpenMP reads this setting before main begins.
 void set_passive_wait(char** arguments);
 
 // Calls per chunk: few enough for an even load, enough to make the overhead negligible.
 [[nodiscard]] std::size_t calls_at_a_time(std::size_t count);
 
-// Calls run(body, first, last) for chunks of the calls 0 .. count-1. Every thread begins with the same part in every
-// loop, to reuse its caches, and then takes chunks from other threads.
+// Calls run(body, first, last) for chunks of the calls. Each thread begins with the same part in all loops, for caches.
 void parallel_chunks(std::size_t count, std::size_t at_a_time,
                      void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
 
-// Calls body(k) for k = 0 .. count-1, each once, on any thread. Calls must be independent of each other, and results
-// independent of the assignment to threads. The first exception thrown by a call is rethrown here; calls that had not
-// begun by then may be skipped.
+// Calls body(k) for k = 0 .. count-1, each once, on any thread. They must be independent. Rethrows the first exception.
 template <class Body>
 void parallel_for(std::size_t count, std::size_t at_a_time, const Body& body) {
   const auto run = [](const void* calls, std::size_t first, std::size_t last) {
@@ -85,8 +80,7 @@ template <class Body>
   return found.load();
 }
 
-// Sum over body(k, sum) for k = 0 .. count-1, each starting from zero, on any thread. Results are added in the order of
-// calls, in runs (base/sums.hpp). The sum is bitwise independent of the number of threads.
+// Sum over body(k, sum), each starting from zero, added in runs (base/sums.hpp): bitwise independent of the threads.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
   thread_local std::vector<Sum> buffer;  // persistent, to avoid allocation in each step

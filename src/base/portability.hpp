@@ -18,8 +18,8 @@
 #define THAWSLIDE_ROLLED
 #endif
 
-// Forces inlining of small functions in the innermost loops, which g++ otherwise leaves out of line and whose results
-// then pass through memory. The second macro follows a lambda's parameters. Builds with checks override them.
+// Forces inlining in the innermost loops, where g++ would pass results through memory. The second follows a lambda's
+// parameters. Builds with checks override them.
 #ifndef THAWSLIDE_ALWAYS_INLINE
 #define THAWSLIDE_ALWAYS_INLINE [[gnu::always_inline]] inline
 #endif

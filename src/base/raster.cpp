@@ -1,6 +1,5 @@
 #include "base/raster.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
@@ -66,8 +65,7 @@ std::vector<int> nearest_rows(const Raster& raster) {
   return nearest;
 }
 
-// Columns whose parabolas form the lower envelope along a row, and the start of the interval in which each is the
-// lowest.
+// Columns whose parabolas form the lower envelope along a row, and the start of the interval of each.
 struct Envelope {
   std::vector<int> column;
   std::vector<double> begin;
@@ -92,9 +90,8 @@ struct Envelope {
 
 }  // namespace
 
-// Two sweeps: along each column, then along each row over the columns' nearest points. The
-// squared distances to these are parabolas along the row, and their lower envelope gives the minimum: Felzenszwalb and
-// Huttenlocher (2012), Distance transforms of sampled functions, Theory of Computing 8, section 2.1.
+// Along columns, then along rows, where squared distances are parabolas and their lower envelope is the minimum:
+// Felzenszwalb and Huttenlocher (2012), Distance transforms of sampled functions, Theory of Computing 8, section 2.1.
 void fill_from_nearest_known(Raster& raster) {
   const std::vector<int> nearest = nearest_rows(raster);
   std::vector<double> height(static_cast<std::size_t>(raster.columns));

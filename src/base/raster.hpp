@@ -41,19 +41,16 @@ void for_each_point(SomeRaster& raster, const Work& work) {
   }
 }
 
-// Treatment of points without data. unknown: the result is NaN. nothing: they are omitted, and the other weights are
-// scaled up. zero: they count as 0, like points outside the raster.
+// Points without data. unknown: the result is NaN; nothing: they are omitted; zero: they are 0, as outside the raster.
 enum class Missing { unknown, nothing, zero };
 
-// Bilinear interpolation between the four points around x, y; points with a weight at round-off level are ignored. NaN
-// if no data are available, and outside the outermost points unless `missing` is zero.
+// Bilinear interpolation; NaN without data, and outside the outermost points unless `missing` is zero.
 [[nodiscard]] double bilinear(const Raster& raster, double x, double y, Missing missing);
 
 // Volume of a thickness [m3]: sum of the values times the area of a cell. Points without data count as 0.
 [[nodiscard]] double volume_of(const Raster& thickness);
 
-// Sets each point without data (NaN) to the value of the nearest point with data; at least one must have data. Time and
-// memory are proportional to the number of points, independent of the size of the gaps.
+// Sets points without data (NaN) to the value of the nearest point with data, which must exist, in linear time.
 void fill_from_nearest_known(Raster& raster);
 
 }  // namespace thawslide

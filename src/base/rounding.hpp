@@ -1,5 +1,4 @@
-// Numbers with few digits, for messages. Rounding a bound to nearest could give a value on the wrong side of it, which
-// the program would refuse again.
+// Numbers with few digits, for messages. A bound is rounded to the side on which the program accepts it.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,8 +26,7 @@ inline double rounded_down(double number, int digits) {
   return std::floor(number / digit * (1.0 + 1e-12)) * digit;
 }
 
-// Formats a number of at least 1 with this number of significant digits, without decimals, with commas between
-// thousands: "10,000".
+// Formats a number of at least 1 with these significant digits, and commas between thousands: "10,000".
 inline std::string with_commas(double number, int digits) {
   const double digit = std::max(1.0, last_digit(number, digits));
   std::string text = fmt::format("{:.0f}", std::round(number / digit) * digit);
@@ -39,8 +37,7 @@ inline std::string with_commas(double number, int digits) {
   return text;
 }
 
-// Formats a number for people with commas between thousands and without an exponent up to 1e10: "0.35", "-1.5",
-// "13,000". Two significant digits are those of an estimate.
+// Formats a number for people, without an exponent up to 1e10: "0.35", "-1.5", "13,000". Two digits are an estimate.
 inline std::string rounded_text(double number, int digits = 2) {
   constexpr double most = 1e10;
   const double size = std::abs(number);

@@ -1,5 +1,4 @@
-// Functions for formulas that work on one number, on CPU and device, and on the SIMD lanes of base/simd.hpp; here for
-// one number. `select` replaces a branch.
+// Functions of formulas that work on one number, on CPU and device, and on SIMD lanes (base/simd.hpp); here for one.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +15,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value select(bool condition, const Value& a
 }
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition; }
 
-// Same semantics as for lanes: returns a if both are equal or one is NaN. The device's built-in functions differ in
-// this.
+// As for lanes: a if both are equal or one is NaN. The device's built-in functions differ in this.
 template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T min(T a, T b) {
   return b < a ? b : a;
@@ -59,8 +57,7 @@ THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value cold_call(Value x, const Functio
   return map_lanes(x, function);
 }
 
-// Calls body(k) for k = 0 .. Count-1 with constant k. Indexing an array of registers by a variable would move it to
-// memory.
+// Calls body(k) with constant k: indexing an array of registers by a variable would move it to memory.
 template <std::size_t Count, class Body>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void unrolled(const Body& body) {
   [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {

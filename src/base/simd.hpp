@@ -1,6 +1,5 @@
-// SIMD numbers: lane k of every quantity belongs to the k-th particle of a batch. A formula with a template parameter
-// for its numbers and the functions of base/select.hpp works for one number and for lanes. CPU only: nvcc does not
-// accept the vector types of g++.
+// SIMD numbers: lane k belongs to the k-th particle of a batch. A formula over a number type with the functions of
+// base/select.hpp works for one number and for lanes. CPU only: nvcc does not accept the vector types of g++.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Numbers of a checkpoint in addition to the particles, and their reader. Values are validated, because a checksum
-// detects changes but not invalid content.
+// Numbers of a checkpoint in addition to the particles, and their reader, which validates what a checksum does not.
 #pragma once
 
 #include <cmath>
@@ -43,8 +42,7 @@ class StateNumbers {
     }
     return static_cast<std::int64_t>(number);
   }
-  // Next number, which must be a count of items with `numbers_each` numbers each, stored after `header` further
-  // numbers.
+  // Next number, which must be a count of items with `numbers_each` numbers, stored after `header` further numbers.
   std::size_t count(std::size_t numbers_each, std::size_t header = 0) {
     const std::size_t available = left() > header ? (left() - 1 - header) / numbers_each : 0;
     return static_cast<std::size_t>(whole(static_cast<std::int64_t>(available)));

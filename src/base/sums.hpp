@@ -7,9 +7,8 @@
 
 namespace thawslide {
 
-// Sum with its rounding error. The pair is exact while the sum is less than 2^51 times the smallest part, in double
-// precision; sums of parts of one sign are then bitwise independent of the order. Error-free sum of two numbers: Knuth
-// 1998, The Art of Computer Programming, vol. 2, Section 4.2.2, Theorem B.
+// Sum with rounding error, exact below 2^51 times the smallest part: sums of one sign are bitwise independent of the
+// order. Error-free sum of two: Knuth 1998, The Art of Computer Programming, vol. 2, Section 4.2.2, Theorem B.
 class ExactSum {
  public:
   ExactSum() = default;
@@ -29,8 +28,7 @@ class ExactSum {
   double sum_ = 0, rest_ = 0;
 };
 
-// Parts are added in runs of this size, each in order; then the sums of the runs are added in order. A device can add
-// all runs in parallel.
+// Parts are added in runs of this size, and then the sums of the runs, in order. A device can add all runs in parallel.
 inline constexpr std::size_t parts_of_a_run = 128;
 constexpr std::size_t runs_of(std::size_t parts) { return (parts + parts_of_a_run - 1) / parts_of_a_run; }
 

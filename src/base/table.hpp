@@ -41,8 +41,7 @@ struct BandThickness {
   [[nodiscard]] double largest() const;
 };
 
-// Initial field: a value, a table over depth below the body's surface [m] or over x [m], or a map (attribute of
-// polygons, or raster) without a table.
+// Initial field: a value, a table over depth below the surface or over x [m], or a map (attribute or raster).
 struct InitialField {
   enum class Over { nothing, depth, x, attribute, raster };
   Over over = Over::nothing;

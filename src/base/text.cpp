@@ -1,8 +1,6 @@
 #include "base/text.hpp"
 
-#include <algorithm>
 #include <cctype>
-#include <string_view>
 
 namespace thawslide {
 

@@ -38,8 +38,7 @@ namespace thawslide {
   return text;
 }
 
-// Text as one word of a POSIX shell, quoted if it contains special characters. A leading dash gets the prefix "./", so
-// that no program interprets the path as an option.
+// Text as one word of a POSIX shell; a leading dash gets the prefix "./", so that it is no option.
 [[nodiscard]] std::string shell_quote(const std::string& text);
 
 }  // namespace thawslide

@@ -1,5 +1,4 @@
-// Number of threads of a run, optimized while it runs. Fewer than the maximum are used if more slow each other down,
-// for example because another process occupies a core or a case is too small. Results are independent of the number.
+// Number of threads of a run, chosen while it runs: fewer if more slow each other down. Results do not depend on it.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "gis/case_inputs.hpp"
 
 #include "base/rounding.hpp"
-#include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
 
 namespace thawslide::gis {

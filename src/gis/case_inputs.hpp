@@ -43,8 +43,7 @@ void add_warning(const std::string& warning, std::vector<std::string>& warnings)
 // "1, 2 and 7"
 [[nodiscard]] std::string joined_by_and(const std::vector<std::string>& words);
 
-// Distance by which a rectangle extends beyond another, such as "120 m in the west and 30 m in the north"; empty if it
-// does not.
+// Distance by which a rectangle extends beyond another: "120 m in the west and 30 m in the north"; or empty.
 [[nodiscard]] std::string describe_overhang(const Rectangle& inner, const Rectangle& outer);
 
 // "x from 0 to 10, y from 2 to 5"
@@ -62,8 +61,7 @@ struct MapRequest {
   std::string heights = {};            // vertical reference system of the DEM, for elevations
 };
 
-// The reference system is that of the file. It is that of the ground, with a warning, if the file has none, or one that
-// its coordinates cannot be in. Throws UserError if the raster does not overlap the area.
+// In the system of the file; with a warning, in that of the ground if that is missing or impossible. Throws UserError.
 [[nodiscard]] Raster read_map(const MapRequest& request, std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

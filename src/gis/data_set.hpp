@@ -6,13 +6,10 @@
 
 namespace thawslide::gis {
 
-// Existing files of the data set, beginning with `file`: those that GDAL lists, and those that it reads but does not
-// list (edits of an open GeoPackage, parts of a Shapefile with suffixes in the other case). Only `file` if it is not a
-// readable data set.
+// Files of the data set, beginning with `file`: those that GDAL lists, and those that it only reads, such as edits.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_data_set(const std::filesystem::path& file);
 
-// File to open in place of `file`: a temporary copy of a GeoPackage with edits that are not in its file yet, because
-// reading the original would move them there; otherwise the file itself.
+// File to open in place of `file`: a copy of a GeoPackage with edits, which reading would move to it; otherwise itself.
 class ReadableFile {
  public:
   explicit ReadableFile(const std::filesystem::path& file);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/raster.hpp"
 #include "base/rounding.hpp"
 #include "base/text.hpp"
 #include "config/input_limits.hpp"

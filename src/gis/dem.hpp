@@ -15,8 +15,7 @@ namespace thawslide::gis {
 // DEM file, and the points at which it is read.
 class DemFile {
  public:
-  // `crs`: as terrain.crs; empty: that of the file. `resample`: distance of the points [m]; 0: those of the file.
-  // Throws UserError if the system is not a map projection in metres. Appends warnings.
+  // `crs`: as terrain.crs; `resample`: distance of points [m], or 0. Throws UserError for no map projection in metres.
   DemFile(const Located<std::string>& file, const Located<std::string>& crs, const Located<double>& resample,
           std::vector<std::string>& warnings);
 
@@ -27,8 +26,7 @@ class DemFile {
   [[nodiscard]] const std::string& heights() const { return heights_; }
   // The file's own points.
   [[nodiscard]] const Raster& own_points() const { return file_.layout(); }
-  // At `points` within a rectangle, and at the file's own points, within a rectangle or all. Throws UserError for
-  // impossible elevations.
+  // At `points` within a rectangle, and at the file's own points. Throw UserError for impossible elevations.
   [[nodiscard]] Raster read(const Rectangle& area) const;
   [[nodiscard]] Raster read_own_points(const std::optional<Rectangle>& area = std::nullopt) const;
 
@@ -50,18 +48,15 @@ struct Dem {
   [[nodiscard]] const Raster& as_measured() const { return before_smoothing.empty() ? raster : before_smoothing; }
 };
 
-// DEM in a domain with a margin of some cells of the grid [m], smoothed as specified by terrain.smooth. `bodies`:
-// rectangles around them. Appends warnings.
+// DEM in a domain with a margin of some cells of the grid [m], smoothed as specified. `bodies`: rectangles around them.
 [[nodiscard]] Dem load_dem(const DemFile& file, const Rectangle& domain, double cell,
                            const config::NumberOrAuto& smooth, const std::vector<Rectangle>& bodies,
                            std::vector<std::string>& warnings);
 
-// Warnings about no-data points within the domain, with the effect on a slide that reaches them, and about probes whose
-// point, or all of whose corners, have no terrain data.
+// Warnings about no-data points in the domain, with their effect on a slide, and about probes without terrain data.
 [[nodiscard]] std::vector<std::string> warnings_of_holes(const config::Case& parameters, const config::Site& site);
 
-// Warning about points that are 0 in ground that is nowhere near this height: no data that the file does not declare.
-// Empty if there are none.
+// Warning about points of 0 in ground that is nowhere near this height, which are probably no data; or empty.
 [[nodiscard]] std::string warning_of_zeros(const std::string& file, const Raster& ground);
 
 }  // namespace thawslide::gis

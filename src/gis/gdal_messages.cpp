@@ -28,8 +28,8 @@ std::filesystem::path folder_of_code() {
   return std::filesystem::canonical(name.empty() ? "/proc/self/exe" : name, error).parent_path();
 }
 
-// A repaired wheel contains PROJ and GDAL with their data. They precede those of the system and of the environment,
-// which belong to other versions. Environment variables would also affect the rasterio package.
+// A repaired wheel contains PROJ and GDAL with their data, which precede those of other versions on the system.
+// Environment variables would also affect the rasterio package.
 void use_packaged_data() {
   const std::filesystem::path share = folder_of_code() / "share";
   std::error_code error;

@@ -1,5 +1,4 @@
-// GDAL for the sources of this module: its messages, collected instead of printed, its texts, and polygons, lines and
-// reference systems as its objects.
+// GDAL for this module: its messages, which are collected, texts, and geometries and systems as its objects.
 #pragma once
 
 #include <cpl_error.h>

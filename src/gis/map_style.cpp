@@ -25,8 +25,7 @@ std::string rgba(const Color& color, double opacity) {
   return fmt::format("{},{},{},{}", color[0], color[1], color[2], std::lround(255.0 * opacity));
 }
 
-// Symbol of a kind of layer, its number as a type of geometry, and options, with the colours of fill and line and the
-// width.
+// Symbol of a kind of layer, its type of geometry, and options with the colours of fill and line and the width.
 struct Symbol {
   const char *kind, *layer;
   int geometry;

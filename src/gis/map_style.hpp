@@ -1,6 +1,5 @@
-// Style files (.qml) of maps for QGIS, which loads FILE.qml for FILE.tif automatically, and the style of a GeoPackage
-// layer. Classes and colours are equal for all runs, so that maps of different runs can be compared. Colours are those
-// of the report (python/thawslide/figures/maximum_maps.py).
+// Styles of maps (FILE.qml, which QGIS loads with FILE.tif) and layers. Classes are equal for all runs, and colours are
+// those of the report (python/thawslide/figures/maximum_maps.py).
 #pragma once
 
 #include <array>
@@ -45,8 +44,7 @@ struct VectorStyle {
 // Style of a map by its name ("max_thickness"). Classes have round limits.
 [[nodiscard]] RasterStyle style_of_map(const std::string& name);
 
-// Style with classes of hazard, for the maximum thickness and pressure: limits 0.5, 1 and 2 m, and 3 and 30 kPa.
-// Without classes for the other maps.
+// Style with classes of hazard, for the maximum thickness and pressure; without classes for the other maps.
 [[nodiscard]] RasterStyle hazard_style_of_map(const std::string& name);
 
 }  // namespace thawslide::gis

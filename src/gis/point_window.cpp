@@ -1,6 +1,5 @@
 #include "gis/point_window.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace thawslide::gis {

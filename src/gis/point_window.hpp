@@ -33,8 +33,7 @@ struct PointWindow {
   int first_column = 0, first_row = 0, columns = 0, rows = 0;
 };
 
-// Points of the layout in the rectangle, and one more on each side; none (0 columns or rows) if the rectangle lies
-// outside.
+// Points of the layout in the rectangle, and one more on each side; none (0 columns or rows) if it lies outside.
 [[nodiscard]] PointWindow points_in(const Raster& layout, const Rectangle& rectangle);
 
 // Points of `part` in the indices of `layout`, both windows of one grid; points outside `layout` are omitted.

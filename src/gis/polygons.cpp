@@ -241,8 +241,7 @@ double area_in_cell(const Ring& ring, int column, int row) {
   return 0.5 * twice;
 }
 
-// Adds the area of a ring in each cell of the columns and rows from `first` up to but excluding `last`, which contain
-// all of it.
+// Adds the area of a ring in each cell of the columns and rows from `first` to before `last`, which contain all of it.
 void add_area(const Ring& ring, double sign, std::array<int, 2> first, std::array<int, 2> last, Raster& fractions) {
   if (ring.size() < 3) {
     return;

@@ -23,8 +23,7 @@ using Polygons = std::vector<Polygon>;
 
 [[nodiscard]] Polygon box_polygon(const Rectangle& box);
 
-// Area of a closed ring [m2], by the trapezoid formula (Gauss) relative to its first corner; positive if it is
-// anticlockwise.
+// Area of a closed ring [m2], positive if it is anticlockwise.
 [[nodiscard]] double signed_area(const Polyline2& ring);
 // Outlines minus holes [m2].
 [[nodiscard]] double area_of(const Polygons& polygons);
@@ -34,12 +33,10 @@ using Polygons = std::vector<Polygon>;
 // Areas bounded by closed rings, in which a ring inside another one is a hole.
 [[nodiscard]] Polygons polygons_of_rings(const std::vector<Polyline2>& rings);
 
-// Makes rings within others holes, and rings within holes areas, whatever the format and the direction of the rings.
-// Parts that only overlap or touch remain. Returns whether anything has changed.
+// Makes rings within others holes, and rings within holes areas. Returns whether anything has changed.
 bool make_nested_rings_holes(Polygons& polygons);
 
-// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
-// in slivers.
+// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed, overlap in slivers.
 inline constexpr double overlap_tolerance = 1e-3;
 
 // Outlines and holes.
@@ -58,14 +55,8 @@ struct Overlap {
 [[nodiscard]] std::optional<Overlap> overlap_of(const Polygons& first, const Polygons& second,
                                                 double tolerance = overlap_tolerance);
 
-// Fraction of each point's cell covered by polygons, exact to round-off: from 0 to 1 at the points of the layout.
-//
-// The cell of a point is the surrounding rectangle of cell_x by cell_y. The polygons are clipped at the cells' edges by
-// bisection. Clipping at a line removes the corners beyond it and adds the intersections of the edges with the line
-// (Sutherland and Hodgman 1974, Communications of the ACM 17, 32-42). The fraction is the remaining area in a cell, by
-// Gauss's trapezoid formula, divided by the cell's area.
-//
-// The polygons must not overlap (union_of) and must lie within the cells of the points.
+// Fraction of each point's cell covered by polygons, exact to round-off. They must not overlap, and must lie within the
+// cells. Bisects and clips them at edges of cells (Sutherland and Hodgman 1974, Communications of the ACM 17, 32-42).
 [[nodiscard]] Raster coverage_of(const Polygons& polygons, const Raster& layout);
 
 // Areas with holes of the cells around points whose value is neither 0 nor NaN; cells that share an edge are joined.

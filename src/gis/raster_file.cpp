@@ -307,8 +307,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   const GdalMessages messages;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoTIFF");
-  // Predictor 3 is TIFF's for floating-point values. Tiles without data are omitted, so size and time scale with the
-  // slide.
+  // Predictor 3 is for floating-point values. Tiles without data are omitted, so the size scales with the slide.
   const char* const options[] = {"TILED=YES",        "COMPRESS=DEFLATE", "PREDICTOR=3",
                                  "BIGTIFF=IF_SAFER", "SPARSE_OK=TRUE",   nullptr};
   GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), raster.columns, raster.rows, 1, GDT_Float64,

@@ -10,8 +10,7 @@
 
 namespace thawslide::gis {
 
-// Quantity of the values of a raster: lengths [m] (elevations, thicknesses, depths of a bed), temperatures [C],
-// fractions of a volume [1], speeds [m/s], times [s], or codes, which have no unit.
+// Quantity of a raster's values: lengths [m], temperatures [C], volume fractions [1], speeds [m/s], times [s], codes.
 enum class Quantity { length, temperature, fraction, speed, time, code };
 
 // Units stated in a file; empty: none.
@@ -28,24 +27,20 @@ struct UnitConversion {
   std::string warning;  // for the user; empty: no conversion
 };
 
-// A band of lengths without a unit has the vertical unit of its reference system. Without either, values are in metres,
-// degrees Celsius, fractions of 1, m/s or s. Throws UserError for an unknown unit or one of another quantity, and for
-// two contradictory units.
+// Without a unit, lengths have the vertical one of the system, or values are in m, C, 1, m/s or s. Throws UserError for
+// an unknown unit, one of another quantity, and two contradictory units.
 [[nodiscard]] UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity);
 
-// GDAL's drivers that may open a file of a user; ends with null. Other formats may refer to files or network locations
-// that a case may not name.
+// GDAL's drivers for files of a user; ends with null. Others may refer to files or networks that a case may not name.
 [[nodiscard]] const char* const* raster_formats();
 
-// Call before allocating memory for the points of a file. Throws UserError if they exceed the limit, or the available
-// memory.
+// Throws UserError if the points of a file exceed the limit, or the available memory. Call before allocating them.
 void require_readable(const std::string& file, double columns, double rows);
 
 // Open raster file. It throws UserErrors that begin with the file's name.
 class RasterFile {
  public:
-  // Opens the file and checks its metadata: one band, and at most one more with the opacity; aligned with the axes;
-  // known unit.
+  // Opens the file and checks its metadata: one band, maybe one more with opacity; aligned with axes; known unit.
   RasterFile(const std::string& file, Quantity quantity);
   ~RasterFile();
   RasterFile(const RasterFile&) = delete;
@@ -59,9 +54,8 @@ class RasterFile {
   // Conversion of the values to the unit in which they are read.
   [[nodiscard]] const UnitConversion& conversion() const { return conversion_; }
 
-  // Reads the points in the window, and one more on each side if available; without a window, all of them. Values are
-  // scaled as the file specifies, and converted. NaN: nodata, values excluded by the file's mask or opacity band, and
-  // non-finite values. Throws if no value is left.
+  // Reads the points in the window, and one more on each side; without one, all. Values are scaled and converted; NaN:
+  // nodata, masked or non-finite values. Throws if no value is left.
   [[nodiscard]] Raster read(const std::optional<Rectangle>& window = std::nullopt) const;
   // Reads the points of a window, which may all be without a value.
   [[nodiscard]] Raster read_points(const PointWindow& part) const;

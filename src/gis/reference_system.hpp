@@ -1,5 +1,4 @@
-// Coordinate reference systems: that of a file or of the user, its suitability for the computation, names, and
-// transformations. All systems are WKT texts here.
+// Coordinate reference systems as WKT texts: their suitability for the computation, names, and transformations.
 #pragma once
 
 #include <memory>
@@ -31,13 +30,11 @@ void require_projection_database();
 // False for values beyond 360 or 90, which cannot be longitude and latitude.
 [[nodiscard]] bool can_be_degrees(const Rectangle& extent);
 
-// System for the computation: that of `terrain.crs`, otherwise that of the file. Throws UserError, with the remedy, if
-// there is none, or if it is not a map projection in metres. Only its horizontal part is returned.
+// Horizontal part of `terrain.crs` or, if empty, of the file's system. Throws UserError if it is no metric projection.
 [[nodiscard]] std::string metric_system(const MapExtent& raster, const std::string& wkt_of_file,
                                         const std::string& terrain_crs);
 
-// Note if lengths on the map differ from those on the ground by more than 1 % at a corner of the raster; empty
-// otherwise. Throws UserError beyond 5 %. `from_key`: the system is that of terrain.crs.
+// Note if lengths on the map differ from those on the ground by more than 1 % at a corner. Throws UserError beyond 5 %.
 [[nodiscard]] std::string distortion_note(const MapExtent& raster, const std::string& wkt, bool from_key);
 
 // Name of the vertical datum, or of the horizontal one for ellipsoidal heights; empty if it is not specified.
@@ -62,11 +59,9 @@ class Reprojection {
 };
 
 // A raster in another system, with about its own spacing: bilinear between its points, or codes of the nearest point.
-// Points of which the nearest one has no data have none. Throws UserError without a transformation.
 [[nodiscard]] Raster reprojected(const Raster& raster, const std::string& to_wkt, bool is_code);
 
-// Reference system of a file other than the DEM: that of the file, or that of the ground if the file has none, or one
-// that its coordinates cannot be in. `warning`: empty if there is none.
+// Reference system of a file other than the DEM; with a warning, that of the ground if it is missing or impossible.
 struct LikelySystem {
   std::string wkt;
   std::string warning;

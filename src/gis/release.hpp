@@ -38,8 +38,7 @@ struct ReleaseInput {
   }
 };
 
-// Area of a release: the polygons of a file or, without these, the points at which a raster has a thickness or a
-// surface lies above the ground.
+// Area of a release: polygons or, without these, points of a raster with a thickness, or a surface above the ground.
 struct ReleaseArea {
   VectorLayer layer;  // selected features; none for a raster
   Polygons polygons;  // their union
@@ -53,8 +52,7 @@ inline constexpr double thickest = 500.0;
 inline constexpr const char* swapped_dem =
     "Is this raster a DEM, swapped with the raster of the thickness? It needs the thickness.";
 
-// Vertical thickness [m] at the points of the area's `fraction`, with its taper. Throws UserError if it is missing or
-// negative.
+// Vertical thickness [m] at the points of the area's `fraction`, with its taper. Throws UserError if it is invalid.
 [[nodiscard]] Raster vertical_thickness_of(const ReleaseInput& input, const ReleaseArea& area);
 
 // Vertical thickness [m] of a layer `along_normal` [m] thick on a plane with the gradient dz/dx, dz/dy.
@@ -75,15 +73,10 @@ struct LoadedRelease {
 // Throws UserError if the outlines of two bodies overlap by more than a thousandth of the smaller area.
 void check_overlaps(const config::Case& parameters, const std::map<std::string, LoadedRelease>& releases);
 
-// Sets the thickness T_b (`assigned_thickness`) of touching bodies in their own parts, and the fractions that assign
-// points to them (`claim`). The volume of each is conserved. Throws UserError if two touching bodies have different
-// tapers.
-//
-// The thickness t_b of a body b at the points of the ground falls to 0 within a cell of its outline, or over its taper.
-// There is no such edge where another body continues beyond the outline. With the fraction w_b of each point's cell
-// that b covers, distributed by its taper like t_b, the thickness in its own part is
+// Sets the thickness T_b (`assigned_thickness`) of touching bodies in their own parts, and fractions that assign points
+// to them (`claim`), and conserves volumes. Throws UserError if their tapers differ. t_b falls to 0 at the outline, but
+// not where another body continues. With the fraction w_b of cells that b covers, distributed by its taper like t_b:
 //    T_b = t_b / w_b  min(1, sum of w over all bodies)
-// The own part is the area within its outline, and beyond all outlines the area in which its fraction is the largest.
 void join_touching(const config::Case& parameters, std::map<std::string, LoadedRelease>& releases);
 
 }  // namespace thawslide::gis

@@ -3,7 +3,6 @@
 #include <gdal_utils.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"

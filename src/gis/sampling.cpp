@@ -26,8 +26,7 @@ struct AxisWeights {
 // For a new point at a position, and with a cell width, in units of the old spacing; count: number of old points.
 using WeightsOfPoint = std::function<AxisWeights(double coordinate, double width, int count)>;
 
-// Fractions of the interval around a position in the cells of old points; positions in units of their spacing. Parts
-// outside the outermost cells are omitted.
+// Fractions of the interval around a position in the cells of old points, in units of their spacing.
 AxisWeights overlaps(double coordinate, double width, int count) {
   const double low = coordinate - 0.5 * width, high = coordinate + 0.5 * width;
   const int first = static_cast<int>(std::clamp(std::floor(low + 0.5), 0.0, count - 1.0));

@@ -130,8 +130,7 @@ Polygons polygons_of(const config::Substrate& substrate, const Areas& areas, con
   return intersection_of(areas_of_mask(mask), {box_polygon(domain)});
 }
 
-// Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those
-// with outlines.
+// Substrates of one raster cannot overlap; those along x were compared before. `polygons`: of those with outlines.
 void check_overlaps(const config::Case& parameters, const Areas& areas, PolygonsOf polygons) {
   const auto polygons_once = [&](const auto& substrate) -> const Polygons& {
     const auto& [name, declared] = substrate;

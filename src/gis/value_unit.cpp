@@ -17,8 +17,7 @@ namespace {
 
 constexpr double survey_foot = 1200.0 / 3937.0;  // m, US survey foot
 
-// Spellings in lower case, without spaces, points, brackets, underscores and hyphens, and the conversion to the unit of
-// the computation.
+// Spellings in lower case without spaces and punctuation, and the conversion to the unit of the computation.
 struct Unit {
   Quantity quantity;
   std::string_view spellings;

@@ -1,8 +1,6 @@
-// Vector files of polygons, lines and points (Shapefile, GeoPackage, GeoJSON), and their features selected by names, or
-// grouped by the values of an attribute.
+// Vector files (Shapefile, GeoPackage, GeoJSON, KML), and their features by names or by the values of an attribute.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,13 +30,11 @@ struct VectorLayer {
 // As raster_formats. The driver "KML" does not follow links, unlike "LIBKML".
 [[nodiscard]] const char* const* vector_formats();
 
-// Each function reads the only layer of this kind in the file, and checks it: polygons have an area and do not
-// intersect themselves. `crs`: WKT of the ground, to which coordinates in another system are transformed.
+// Read and check the only layer of this kind in the file. `crs`: WKT of the ground, to which they transform.
 [[nodiscard]] VectorLayer read_polygons(const std::string& file, const std::string& crs);
 [[nodiscard]] VectorLayer read_lines(const std::string& file, const std::string& crs);
 
-// Spelling of an attribute's name in the file: the same name, otherwise one that differs only in letter case. Throws
-// UserError for none and for several. `key`: for the message.
+// Spelling of an attribute's name in the file, maybe in other letter case. Throws UserError for none and for several.
 [[nodiscard]] std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key);
 
 // Features with the given names; all of them if there are no names. An error lists the names in the file.
@@ -50,8 +46,7 @@ struct ValuedArea {
   Polygons polygons;  // union of those with the value
 };
 
-// Features of a layer in groups, by increasing value. Throws UserError if a feature lacks the attribute or has a text
-// as its value, and if features of different values overlap. `key`: key that names the attribute, for messages.
+// Features in groups, by increasing value. Throws UserError for no number, and if features of different values overlap.
 [[nodiscard]] std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::string& attribute,
                                                      const std::string& key);
 

@@ -1,5 +1,4 @@
-// checkpoint.bin: complete state for resuming a run, in a dedicated binary format. A SHA-256 of the file at its end is
-// verified before parsing. Two generations are kept.
+// checkpoint.bin: complete state for resuming a run, with a SHA-256 at its end. Two generations are kept.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +14,13 @@ namespace thawslide::io {
 inline constexpr const char* checkpoint_name = "checkpoint.bin";
 inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin";
 
-// Bytes of a checkpoint. Rows are sorted by id, so the bytes do not depend on storage order. at_start: number of
-// particles at t = 0; blocks: further state of the run; case_text: its resolved case.
+// Bytes of a checkpoint, with rows by id. at_start: particles at t = 0; blocks: further state; case_text: resolved.
 template <int Dim>
 [[nodiscard]] std::string checkpoint_bytes(const mpm::Particles<Dim>& particles, std::size_t at_start,
                                            const std::vector<double>& scalars, const NamedNumbers& blocks = {},
                                            const std::string& case_text = {});
 
-// Writes checkpoint.bin into `folder`; an existing one becomes checkpoint.previous.bin. Throws
-// WriteError.
+// Writes checkpoint.bin into `folder`; an existing one becomes checkpoint.previous.bin. Throws WriteError.
 template <int Dim>
 void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim>& particles, std::size_t at_start,
                       const std::vector<double>& scalars, const NamedNumbers& blocks = {},
@@ -53,9 +50,7 @@ struct WholeCheckpoint {
 // Resolved case of the run when it wrote the checkpoint. Throws UserError for a checkpoint of another program.
 [[nodiscard]] std::string case_of(const WholeCheckpoint& checkpoint);
 
-// particles: those at t = 0, which are replaced by those of the checkpoint. Returns the blocks. Throws UserError for a
-// checkpoint of another kind of run (dimension, fields, particles at t = 0), and for invalid bytes with a
-// valid checksum. Memory use is limited to that of particles and numbers in a file of this size.
+// Replaces particles at t = 0 by those of the checkpoint; returns the blocks. Throws UserError for one of another run.
 template <int Dim>
 NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim>& particles,
                              std::vector<double>& scalars);

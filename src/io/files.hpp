@@ -14,15 +14,13 @@ void make_folder(const std::filesystem::path& folder);
 // Unused name for keeping a damaged file in its folder: NAME.damaged.EXTENSION, or with a number.
 [[nodiscard]] std::filesystem::path name_for_damaged(const std::filesystem::path& file);
 
-// Removes temporary files of killed processes. Does nothing if the folder does not exist, or is a link, whose contents
-// do not belong to the run. Throws WriteError.
+// Removes temporary files of killed processes, unless the folder is a link or does not exist. Throws WriteError.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
 // Removes a file, a link or an empty folder, if it exists. Throws WriteError with the path and the system's reason.
 void remove_or_throw(const std::filesystem::path& file);
 
-// Contents of a file. Throws UserError if it cannot be read, or is not a regular file: a pipe may block forever, and a
-// device may have no end.
+// Contents of a file. Throws UserError if it cannot be read, or is no regular file, such as a pipe.
 std::string read_file(const std::filesystem::path& file);
 
 // Throws UserError for a folder, a pipe or a device; a missing file is accepted.

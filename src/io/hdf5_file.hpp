@@ -1,5 +1,4 @@
-// Wrapper of the HDF5 library: handles with automatic closing, files in memory. No time stamps are stored, so the same
-// content gives the same bytes.
+// HDF5: handles with automatic closing, files in memory. Without time stamps: the same content gives the same bytes.
 #pragma once
 
 #include <hdf5.h>

@@ -1,5 +1,4 @@
-// CSV files: history.csv and probes.csv, with one row per output time, appended with a single write, so that a killed
-// run leaves complete rows; profiles of a run (terrain.csv, for figures) and of cases.
+// CSV files: history.csv and probes.csv, whose rows are appended with a single write each, and profiles.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +22,11 @@ class HistoryWriter {
  public:
   using Row = std::vector<std::pair<std::string, double>>;  // column, value
 
-  // Creates a file specified by the user: a link is followed, and it may be a terminal. Throws WriteError if it cannot
-  // be written.
+  // Creates a file specified by the user, maybe a link or a terminal. Throws WriteError if it cannot be written.
   explicit HistoryWriter(const std::filesystem::path& file);
   // Creates a file in a run folder: an existing file, link or pipe is replaced, and the target of a link is kept.
   static HistoryWriter start_in_run(const std::filesystem::path& file);
-  // Continues a file that once had the extent `then`, with these columns: keeps the rows up to there and appends. A
-  // file that does not contain them is kept under another name; the history then starts again, with a warning.
+  // Continues a file that once had the extent `then` and these columns. Otherwise, it starts again, with a warning.
   static HistoryWriter continue_after(const std::filesystem::path& file, const std::string& header,
                                       const HistoryExtent& then, std::vector<std::string>& warnings);
 
@@ -62,8 +59,7 @@ std::optional<double> last_time_in_history(const std::filesystem::path& file);
 // Shortest decimal text that reads back to the same number.
 std::string shortest(double value);
 
-// Columns distance_m, terrain_elevation_m, and surface_elevation_m if the profile has it; preceded by the comments, one
-// per line.
+// Columns distance_m, terrain_elevation_m, and surface_elevation_m if there is one, after the comments.
 void write_profile_csv(const std::filesystem::path& file, const config::ProfileTable& profile,
                        const std::vector<std::string>& comments = {});
 

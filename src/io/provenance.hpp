@@ -57,13 +57,12 @@ RunPart part_of_this_process();
 
 void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
 
-// Copies inputs into folder/inputs under unique names; `texts`: contents of files that were read before. Throws
-// UserError for unreadable files, and for names of the program's own temporary files, which a resume would remove.
+// Copies inputs into folder/inputs; `texts`: of files read before. Throws UserError for an unreadable file or a name of
+// the program's own temporary files.
 std::vector<InputFile> copy_inputs(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
                                    const std::map<std::filesystem::path, std::string>& texts = {});
 
-// Reads from folder/run.json: parts, inputs, status, message (control characters in these two replaced by '?'),
-// simulated time and steps; the rest is left empty. Throws UserError if it cannot be read or is invalid.
+// Reads parts, inputs, status, message, time and steps from folder/run.json. Throws UserError if it is invalid.
 Provenance read_provenance(const std::filesystem::path& folder);
 
 // SHA-256 of a file, in hexadecimal digits. Throws UserError if it cannot be read.

@@ -42,8 +42,7 @@ bool is_among(const std::string& name, std::string_view names) {
          fmt::format(" {} ", names).find(fmt::format(" {} ", name)) != std::string::npos;
 }
 
-// Files that a resume kept under another name because of damage (name_for_damaged): history.damaged.csv,
-// history.damaged.2.csv.
+// Files that a resume kept because of damage (name_for_damaged): history.damaged.csv, history.damaged.2.csv.
 bool is_damaged_one(const fs::path& file) {
   const fs::path number = file.stem().extension();  // or ".damaged" itself
   const fs::path stem = number == ".damaged" ? file.stem() : file.stem().stem();
@@ -177,9 +176,8 @@ void require_replaceable(const fs::path& folder, bool overwrite) {
       folder.string());
 }
 
-// Removes the files of a run by their names: links instead of their targets, and folders if they are then empty. In
-// inputs/, these are the copies listed in run.json, which is removed last, because it identifies the folder as that of
-// a run. Throws WriteError.
+// Removes the files of a run by their names, links instead of their targets, and folders if they are then empty; last
+// run.json, which lists the copies in inputs/ and identifies the folder as that of a run. Throws WriteError.
 void remove_files_of_run(const fs::path& folder) {
   for (const auto& [name, is_own] : folders_of(folder)) {
     const fs::path path = folder / name;

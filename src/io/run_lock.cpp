@@ -79,8 +79,7 @@ pid_t process_of_this_machine(const std::string& line) {
   return number > 0 && line == config::shown(format_process(number)) ? number : 0;
 }
 
-// Process at work according to the file, on file systems without locks: one of another machine until its entry is
-// removed. An entry with our own number was left by an earlier process.
+// Process at work according to the file, on file systems without locks; one with our own number has ended.
 std::string named_process(const std::string& line) {
   const pid_t number = process_of_this_machine(line);
   const bool has_ended = number > 0 && (number == getpid() || (kill(number, 0) != 0 && errno != EPERM));

@@ -1,6 +1,5 @@
-// Lock of a run folder: a process holds it until it ends, for any reason. On a file system without locks, the process
-// name in the file decides. A process on this machine is tested; one on another machine counts as running. A process
-// that ends normally removes its entry.
+// Lock of a run folder, which a process holds until it ends. On a file system without locks, the process name in the
+// file decides; one on another machine counts as running. A process that ends normally removes its entry.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +12,11 @@ inline constexpr const char* lock_name = "run.lock";
 
 class RunLock {
  public:
-  // Throws UserError if another process holds the folder's lock, or may hold it; WriteError if the file cannot be
-  // created.
+  // Throws UserError if another process holds the lock, or may hold it; WriteError if the file cannot be created.
   explicit RunLock(const std::filesystem::path& folder);
   RunLock(RunLock&& other) noexcept;
   RunLock& operator=(RunLock&&) = delete;
-  // Releases the folder and removes the file. If the run has not written run.json, the file is kept to mark a folder
-  // without results.
+  // Removes the file, unless the run has not written run.json: then it marks a folder without results.
   ~RunLock();
 
  private:
@@ -27,8 +24,7 @@ class RunLock {
   int descriptor_;
 };
 
-// Run folder whose lock this process holds. If the folder was moved or removed and another run started under its name,
-// this run must not write there.
+// Run folder whose lock this process holds, unless it was moved or removed, and another run has its name.
 class OwnFolder {
  public:
   explicit OwnFolder(const std::filesystem::path& folder);

@@ -1,5 +1,4 @@
-// Particle state as a VTKHDF file: PolyData with one vertex per particle, readable by ParaView, PyVista, h5py. A
-// separate group contains the table of the base.
+// Particle state as a VTKHDF file: PolyData with one vertex per particle. A separate group has the table of the base.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +32,7 @@ struct Snapshot {
 template <int Dim>
 std::vector<SnapshotField> snapshot_fields(const mpm::Particles<Dim>& particles);
 
-// These fields with rows by id, the local origin added, three components in 2D (z = 0), tensors as xx
-// yy zz xy yz xz.
+// These fields by id, with the local origin added, three components in 2D (z = 0), tensors as xx yy zz xy yz xz.
 template <int Dim>
 Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step);

@@ -15,23 +15,19 @@ class SnapshotSeries {
  public:
   // Starts with no snapshots; creates folder/snapshots.
   explicit SnapshotSeries(const std::filesystem::path& folder);
-  // Continues a series that once had this state and removes later snapshots. A warning lists earlier ones that are
-  // missing or of another size; the index omits these. fields: of its next snapshot, without values.
+  // Continues a series with this state; warns about missing snapshots. fields: of its next snapshot, without values.
   static SnapshotSeries continue_after(const std::filesystem::path& folder, const std::vector<double>& state,
                                        std::vector<SnapshotField> fields, std::vector<std::string>& warnings);
 
-  // Writes folder/snapshots/NNNNNN.vtkhdf in parallel with the caller. Before that, writes the index of the snapshots
-  // so far if it is more than some seconds old. Throws WriteError if this snapshot or the previous one could not be
-  // written.
+  // Writes folder/snapshots/NNNNNN.vtkhdf in parallel with the caller, and an index that is some seconds old. Throws
+  // WriteError if this snapshot or the previous one could not be written.
   void add(Snapshot snapshot);
   // Waits until the last snapshot has reached the disk; throws as add does.
   void finish_writing();
-  // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times. Does nothing without
-  // snapshots.
+  // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times; nothing without any.
   void write_index();
 
-  // State for a checkpoint: number of snapshots written, then number, time, particles and bytes of each in the index.
-  // Requires that all are written.
+  // State for a checkpoint, once all are written: their number; number, time, particles and bytes of each in the index.
   [[nodiscard]] std::vector<double> state() const;
   // CPU time of writing snapshots in parallel with the caller [s], without the last one while it is being written.
   [[nodiscard]] double writer_seconds() const { return writer_seconds_; }

@@ -1,5 +1,4 @@
-// Extension module thawslide._core: cases, live runs and runs in folders. The Python package gives them their public
-// form (python/thawslide/case.py, simulation.py).
+// Extension module thawslide._core, whose public form is python/thawslide/case.py and simulation.py.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/pair.h>
@@ -36,8 +35,7 @@ namespace thawslide::python {
 
 namespace {
 
-// Calls a law with copies of the arrays of the nodes, and replaces their strengths by the array that it returns. The
-// caller does not hold the GIL. Exceptions of the law pass through the step.
+// Calls a law with copies of the arrays of the nodes, without the GIL, and replaces their strengths by its result.
 void set_strengths(const nb::object& law, terrain::LoadedNodes& nodes) {
   const nb::gil_scoped_acquire gil;
   const std::size_t count = nodes.strength.size();
@@ -94,8 +92,7 @@ class Live {
     return computed(observer_, threads, [&] { return work(*live_); });
   }
 
-  // Advances until a simulated time, for a number of steps, or for a wall-clock time, whichever comes first. law: None,
-  // or a function that returns the basal strengths of a dictionary of arrays.
+  // Advances until a time, for a number of steps, or for a wall-clock time. law: None, or one of basal strengths.
   void advance(double until, std::int64_t steps, double seconds, int threads, const nb::object& law) {
     const terrain::StrengthLaw strength = [&law](terrain::LoadedNodes& nodes) { set_strengths(law, nodes); };
     const terrain::StrengthLaw* replacing = law.is_none() ? nullptr : &strength;
@@ -118,8 +115,7 @@ class Live {
   std::atomic<bool> is_in_use_{false};
 };
 
-// Read-only array of a field: (particles) for scalars, otherwise (blocks, lanes, components); a view of its memory
-// without a copy, unless a step may move the memory.
+// Read-only array of a field: (particles) or (blocks, lanes, components); a view, unless a step may move the memory.
 nb::object field_view(Live& self, const std::string& name) {
   const run::FieldMemory memory = self.use(1, [&](run::LiveRun& live) { return live.field(name); });
   const auto view = [&]<class T>(T /*type*/) -> nb::object {

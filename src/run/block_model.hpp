@@ -14,8 +14,7 @@ namespace thawslide::run {
 // Value of a column of a row.
 [[nodiscard]] double value_of(const sim::HistoryRow& row, const std::string& name);
 
-// Rows of the block's motion up to the end of the run or of the known terrain. Reports warnings of the case, and where
-// the terrain ends the motion. Throws UserError.
+// Rows of the block's motion to the end of the run or of the known terrain. Reports warnings. Throws UserError.
 [[nodiscard]] std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer);
 
 // Base [basal] of a new case: the thinnest band that config::ProposedBase allows, without substrates. Throws UserError.

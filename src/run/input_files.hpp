@@ -1,5 +1,4 @@
-// All input files of a case, which a run copies.
-// Protection of inputs against being overwritten by a command. All functions throw UserError.
+// Input files of a case, which a run copies, and their protection against being overwritten. All throw UserError.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +9,10 @@
 
 namespace thawslide::run {
 
-// Case files and every file that the case names, each once, absolute; a map with all files of its data set. Throws
-// UserError if two of them have the same name.
+// Case files, files that the case names, and those of map data sets, absolute. Throws UserError for two of one name.
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const config::Case& parameters);
 
-// Checks inputs that a run copies but does not otherwise read, such as files that accompany a map. If one is
-// unreadable, the run to be replaced must still be intact.
+// Checks inputs that a run only copies: if one is unreadable, the run to be replaced must still be intact.
 void require_readable_inputs(const config::Case& parameters);
 
 // Requires that no input lies in a folder that a run will replace.

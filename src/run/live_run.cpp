@@ -271,8 +271,7 @@ class LiveRunOf final : public LiveRun {
   static bool is_public(const mpm::FieldBase& field) {
     return field.memory() != nullptr && (field.info().in_snapshot() || std::string("position") == field.info().name);
   }
-  // Positions of the nodes of a block, in the coordinates of the case [m]. On terrain, columns of nodes begin at the
-  // height of the ground.
+  // Positions of the nodes of a block [m]. On terrain, columns of nodes begin at the height of the ground.
   [[nodiscard]] auto positions_of_block(std::uint64_t block) const {
     using T = mpm::Tile<Dim>;
     constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);

@@ -15,9 +15,8 @@
 
 namespace thawslide::run {
 
-// Memory of a particle field: blocks of `lanes` particles; within a block the components follow each other, each with
-// all lanes. `owner` keeps the memory alive; its content is that of the field until the next step, change or
-// restoration.
+// Memory of a particle field in blocks of `lanes` particles, components after each other. `owner` keeps it alive; its
+// content is that of the field until the next step, change or restoration.
 struct FieldMemory {
   std::shared_ptr<const void> owner;
   const void* data;
@@ -27,8 +26,7 @@ struct FieldMemory {
   bool may_move;      // by a step, because particles may join: the memory must be copied before
 };
 
-// Nodes with mass in the last step: position in the coordinates of the case [m], mass [kg] and velocity [m/s] at its
-// start, one row of `dimension` numbers per node.
+// Nodes with mass in the last step: position [m], mass [kg], velocity at its start [m/s]; rows of `dimension` numbers.
 struct NodeTable {
   std::size_t dimension;
   std::vector<double> position, mass, velocity;
@@ -55,8 +53,7 @@ class LiveRun {
   // Lower corner of the domain [m], to which positions are relative.
   [[nodiscard]] virtual std::vector<double> origin() const = 0;
 
-  // Performs the next step of the run, and adds a history row if one is due. Does nothing if the run is done. Throws
-  // RunError if the run fails. strength: replaces the basal laws of the case in this step unless it is null.
+  // Performs the next step, if any, and adds a history row if one is due. Throws RunError. strength: null or basal law.
   virtual void step(const terrain::StrengthLaw* strength) = 0;
   // True if steps evaluate basal laws: the case has a terrain and mechanics.
   [[nodiscard]] virtual bool has_basal_law() const = 0;
@@ -76,8 +73,7 @@ class LiveRun {
   // Throws UserError for an unknown name.
   [[nodiscard]] virtual FieldMemory field(const std::string& name) = 0;
 
-  // State with the history, and its restoration in a live run of the same case. Both throw UserError: if no step can
-  // continue from the state, and for a state of another case.
+  // State with the history, and its restoration in a live run of the same case. Both throw UserError.
   [[nodiscard]] virtual std::string checkpoint() const = 0;
   virtual void restore(const std::string& checkpoint) = 0;
 
@@ -88,10 +84,8 @@ class LiveRun {
   LiveRun() = default;
 };
 
-// Reads the inputs of a case, sets up its particles and settles them if the case requests it. device: "cpu", "gpu" or
-// "auto". Reports warnings and notes. Throws UserError, RunError if settling fails, and DeviceError; also a UserError
-// if the observer interrupts settling. The observer must outlive the live run, which reports the warnings of its steps
-// to it.
+// Reads and sets up a case, and settles its particles. device: "cpu", "gpu" or "auto". Throws UserError, RunError and
+// DeviceError. The observer receives the warnings and must outlive the live run.
 [[nodiscard]] std::unique_ptr<LiveRun> make_live_run(const config::Case& parameters, const std::string& device,
                                                      Observer& observer);
 

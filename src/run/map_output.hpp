@@ -30,8 +30,7 @@ inline constexpr GroundMap ground_map{
     "ground", "m",
     "elevation of the ground of the cells, on which the material slides; thicknesses are relative to it"};
 
-// Writes the first two on the points of the DEM, if the terrain is one, and the last on the grid of the other maps, if
-// there is a terrain.
+// Writes the first two on the points of a DEM, and the last on the grid of the other maps, if there is a terrain.
 void write_ground_maps(const std::filesystem::path& folder, const sim::Simulation<3>& simulation);
 
 // Attributes of the maps.

@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Changes that interrupted resumes were to make to the case with this SHA-256, in order: they are in run.json but not
-// in case.toml. Empty result if no part of the run had that case.
+// Changes by interrupted resumes to the case of this SHA-256: in run.json, not in case.toml. Empty for no such part.
 std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& facts, const std::string& case_sha256) {
   std::vector<std::string> changes;
   for (auto part = facts.parts.rbegin(); part != facts.parts.rend(); ++part) {

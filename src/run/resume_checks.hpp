@@ -11,8 +11,7 @@
 
 namespace thawslide::run {
 
-// Requires that the copies of the inputs are unchanged, and that no file has been added to a copied map. Those of
-// [report] may change, because they are used only for comparison in figures.
+// Requires unchanged copies of the inputs, without added files. Those of [report] may change, as only figures use them.
 void require_same_inputs(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
                          const config::Case& now);
 
@@ -23,8 +22,8 @@ void require_same_inputs(const std::filesystem::path& folder, const std::vector<
 void report_changed_copy(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
                          const std::string& error);
 
-// Requires that case.toml is the one of the run's checkpoint (`before`), or the result of later resumes; keys replaced
-// by `sets` may have any value. Changes by interrupted resumes must be among `sets`.
+// Requires that case.toml is that of the checkpoint (`before`) or of a later resume, except for keys in `sets`, which
+// must include the changes by interrupted resumes.
 void require_same_case(const std::filesystem::path& folder, const io::Provenance& facts, const std::string& before,
                        const std::vector<std::string>& sets, Observer& observer);
 

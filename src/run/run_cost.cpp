@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "base/clocks.hpp"
 #include "base/error.hpp"
@@ -29,9 +28,8 @@ namespace {
 constexpr double enough_seconds = 0.5;
 constexpr int enough_steps = 200;
 
-// Cost of a run over that of its number of first steps. A slide that spreads touches more nodes and columns, and output
-// is written. Measured on whole runs: 1.2 to 2.3 (plane, Lamplugh, entrainment), and with band columns 3.0 to 3.3
-// (slope of the Alps, Lamplugh).
+// Cost of a run over that of its first steps: a slide that spreads touches more nodes and columns. Measured on whole
+// runs: 1.2 to 2.3 (plane, Lamplugh, entrainment), and with band columns 3.0 to 3.3 (slope of the Alps, Lamplugh).
 double spreading_factor(const config::Case& parameters) {
   const double of_splitting = std::min(sim::usual_cost_of_splitting, sim::splitting_factor(parameters));
   return of_splitting * (config::has_band_columns(parameters) ? 3.1 : 1.7);
@@ -65,8 +63,7 @@ constexpr double bytes_besides_points = 1e4;  // of a snapshot, and of a checkpo
 constexpr double most_of_free = 0.9;          // fraction of the free disk that a run may use without a warning
 constexpr double gigabyte = 1e9;
 
-// Number of whole intervals until the end, plus one for the start. It is limited to the number of steps, unless steps
-// are cut to the intervals. The last fixed step may end before the end of the run.
+// Number of intervals until the last step ends, plus one; at most that of steps, unless these are cut to intervals.
 double count_of(const config::Time& time, double interval, double steps, bool cuts_steps) {
   const bool is_fixed = time.stepping == config::Stepping::fixed;
   const double last = is_fixed ? std::min(time.end, steps * time.step) : time.end;

@@ -20,8 +20,7 @@ struct RunCost {
 template <int Dim>
 [[nodiscard]] double steps_to_end(sim::Simulation<Dim>& simulation);
 
-// Cost of this number of steps. Steps on one thread, which advance the simulation, are timed by the clock of the
-// thread, because wall-clock time depends on other processes.
+// Cost of steps on one thread, timed by its clock, as other processes affect wall-clock time. Advances the simulation.
 template <int Dim>
 [[nodiscard]] RunCost cost_on_cpu(sim::Simulation<Dim>& simulation, double steps);
 // The same on a device; processor is wall-clock time.
@@ -41,8 +40,7 @@ struct GpuFacts {
 };
 [[nodiscard]] GpuFacts detect_gpu();
 
-// Selects a GPU for the steps if requested: "gpu", or "auto" if there is one; "cpu" changes nothing. Returns the device
-// as text; empty for the CPU. Throws UserError with the reason if the GPU is unavailable.
+// Selects a GPU for the steps: "gpu", or "auto" if there is one. Returns its name, or nothing. Throws UserError.
 template <int Dim>
 std::string use_device(const std::string& device, sim::Simulation<Dim>& simulation);
 

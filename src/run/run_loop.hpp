@@ -13,8 +13,7 @@ template <int Dim>
 ExitCode start_and_run(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder,
                        Observer& observer);
 
-// Returns why the run ended: done, interrupted, not written, or failure of the device. In each case, all results so far
-// have been written. Throws RunError if the run failed.
+// Returns why the run ended, after writing all results so far. Throws RunError if the run failed.
 template <int Dim>
 ExitCode run_to_end(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder,
                     Observer& observer);
@@ -31,8 +30,8 @@ auto with_dimension(int dimension, const Work& work) {
 // Output times: every multiple of an interval, and the end.
 class Schedule {
  public:
-  // Begins at `begin`, reached by a step of `last_step` (0: no step yet), as if the run had been uninterrupted. early:
-  // fraction of a step by which a step may end before a time and still reach it; for the end it is 0.5.
+  // Begins at `begin`, reached by a step of `last_step` (0: none). early: fraction of a step by which it may end before
+  // a time and still reach it; for the end it is 0.5.
   Schedule(double interval, double begin, double last_step, double end, double early = 0.5);
   [[nodiscard]] double next() const { return next_; }
   // Returns whether the next time is reached, and if so advances to the following one.
@@ -48,9 +47,8 @@ class Schedule {
 // True if the last step has reached the end, to half a step: fixed steps may end that much early.
 [[nodiscard]] bool has_reached_end(double time, double last_step, double end);
 
-// Schedules of history rows and snapshots, from the time of the last step on. A row follows the first adaptive step
-// that reaches its time, within round-off. Adaptive steps end at snapshots, so each snapshot can have a row of the same
-// time. With fixed steps, a row follows the nearest step.
+// Schedules from the time of the last step on. A row follows the first adaptive step that reaches its time, or the
+// nearest fixed step. Adaptive steps end at snapshots, so each can have a row of the same time.
 [[nodiscard]] Schedule history_schedule(const config::Time& times, double time, double last_step);
 [[nodiscard]] Schedule snapshot_schedule(const config::Time& times, double time, double last_step);
 

@@ -4,12 +4,10 @@
 
 #include "base/atomic_file.hpp"
 #include "base/parallel.hpp"
-#include "base/state_numbers.hpp"
 #include "config/describe.hpp"
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "run/input_files.hpp"
-#include "sim/records/end_state.hpp"
 #include "sim/records/history.hpp"
 
 namespace thawslide::run {

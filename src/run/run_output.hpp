@@ -25,19 +25,17 @@ class RunOutput {
  public:
   using Simulation = sim::Simulation<Dim>;
 
-  // Starts a new run in an existing empty folder whose lock the process holds: writes the inputs, the resolved case,
-  // run.json and the ground. All writing functions throw WriteError if the folder no longer belongs to this run.
+  // Starts a run in an empty folder whose lock the process holds: writes inputs, case, run.json and ground. All writing
+  // functions throw WriteError if the folder no longer belongs to this run.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
-  // Restarts a run that was interrupted before its first checkpoint: inputs and case exist; earlier: contents of
-  // run.json, with the part that begins; case_text: resolved.
+  // Restarts a run without a checkpoint; earlier: contents of run.json, with the part that begins; case_text: resolved.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::Provenance earlier,
             std::string case_text);
   // Writes row and snapshot of the state before the first step.
   void write_first_state(const Simulation& simulation);
   // Writes the checkpoint before the first step; work is counted from here.
   void begin(const Simulation& simulation);
-  // Resumes a run at the simulation's time; blocks: contents of its checkpoint other than the particles; the other
-  // arguments as above. Records damaged files in run.json (warnings_of_part).
+  // Resumes a run; blocks: contents of its checkpoint other than the particles. Records damaged files in run.json.
   static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
                           io::Provenance earlier, std::string case_text);
 

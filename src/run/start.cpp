@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <set>
 
 #include "base/atomic_file.hpp"
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "base/state_numbers.hpp"
@@ -99,8 +97,7 @@ void apply_changes(const fs::path& folder, const Continuation& next, Observer& o
   }
 }
 
-// Reports an error that a change causes in an unchanged key at its location in the run's case.toml, which is not for
-// editing.
+// Reports an error that a change causes in an unchanged key of the run's case.toml, which is not for editing.
 template <int Dim>
 std::unique_ptr<sim::Simulation<Dim>> simulation_of(const fs::path& folder, const Continuation& next,
                                                     Warnings& warnings) {
@@ -128,8 +125,7 @@ ExitCode restart_from_begin(const fs::path& folder, const Continuation& next, Ob
   return start_and_run<Dim>(simulation, output, folder, observer);
 }
 
-// True if a finished run continues with the changes. falls_back: its last checkpoint is lost. Throws UserError if the
-// run cannot continue and the changes would be lost.
+// True if a finished run continues with the changes; falls_back: its last checkpoint is lost. Throws UserError.
 template <int Dim>
 bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
                                 sim::Simulation<Dim>& simulation, Observer& observer) {
@@ -161,8 +157,7 @@ bool applies_changes_at_its_end(const fs::path& folder, const Continuation& next
   return true;
 }
 
-// Renames a damaged checkpoint, because the next one would otherwise replace the valid one and keep the damaged one.
-// Returns a text with the new name.
+// Renames a damaged checkpoint, which would otherwise replace the valid one. Returns a text with its new name.
 std::string keep_damaged(const fs::path& damaged) {
   if (damaged.empty()) {
     return "";

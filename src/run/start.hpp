@@ -17,8 +17,7 @@ struct StartOptions {
   std::string device = "cpu";    // cpu, gpu or auto
 };
 
-// Runs a case from its start to its end, with the present number of threads. Throws UserError before any file is
-// written, and RunError if the run fails.
+// Runs a case with the present number of threads. Throws UserError before any file is written, and RunError.
 ExitCode start_run(const config::Case& parameters, const StartOptions& options, Observer& observer);
 
 struct ResumeOptions {
