@@ -116,7 +116,6 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
   if (!checked.terrain.extend && reading.are_valid({"grid.min", "grid.max"}) &&
       (from > checked.grid.min[0] || to < checked.grid.max[0])) {
     reading.report({"terrain.file", "grid.max", "grid.min", "terrain.extend"},
-
                    "the profile reaches from {} to {} m and the domain from {} to {} m; allowed: a profile that covers "
                    "the domain. Set terrain.extend = true to continue its last gradients, or make the domain shorter.",
                    from, to, checked.grid.min[0], checked.grid.max[0]);

@@ -159,7 +159,6 @@ void check_grounds(const Case& checked, Reading& reading) {
     if (reading.are_valid({"terrain.type"}) && checked.terrain.kind == TerrainKind::none) {
       reading.report(
           {table, "terrain.type"},
-
           "[{}] specifies what bodies slide on, and the case has no terrain. Remove it, or give terrain.type.", table);
     } else if (!reading.are_valid({table + ".outline", table + ".raster"})) {
       continue;  // already reported

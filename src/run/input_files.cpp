@@ -10,9 +10,9 @@
 #include "base/error.hpp"
 #include "config/input_limits.hpp"
 #include "config/named_files.hpp"
-#include "gis/data_set.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
+#include "gis/data_set.hpp"
 #endif
 
 namespace thawslide::run {
