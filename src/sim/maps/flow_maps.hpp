@@ -39,9 +39,12 @@ class FlowMaps {
   // Empties the current maps when no slide is left; maxima remain.
   void slide_left();
 
-  // Memory of all cells that the slide has approached, and of one cell.
-  [[nodiscard]] std::size_t bytes() const { return tiles_.size() * sizeof(MapTile); }
-  [[nodiscard]] static constexpr std::size_t bytes_of_cell() { return sizeof(MapTile) / tile_cells; }
+  // Memory of all cells that the slide has approached, and of one cell, with its sums in the solver, in the sample and
+  // here.
+  [[nodiscard]] std::size_t bytes() const { return tiles_.size() * tile_cells * bytes_of_cell(); }
+  [[nodiscard]] static constexpr std::size_t bytes_of_cell() {
+    return sizeof(MapTile) / tile_cells + 3 * sizeof(mpm::MapSums);
+  }
 
   [[nodiscard]] const MapGrid& map_grid() const { return map_grid_; }
   [[nodiscard]] const mpm::MapCells& cells() const { return cells_; }
