@@ -21,22 +21,6 @@ struct ColumnHeights {
   }
 };
 
-// Heights of particles above the ground.
-template <int Dim>
-struct LocateParticle {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = mpm::NoTotals;
-
-  terrain::LocateAboveGround<Dim, ColumnHeights<Dim>> locate;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Totals& /*totals*/) const {
-    locate(particles, at);
-  }
-};
-
 // Updates positions and, with ground, what depends on them alone.
 template <int Dim>
 struct UpdatePosition {
@@ -53,7 +37,8 @@ struct UpdatePosition {
                                Totals& invalid) const {
     update(particles, at, seen, added, invalid);
     if (has_ground) {
-      locate(particles, at);
+      mpm::NoTotals none;
+      locate(particles, at, seen, added, none);
     }
   }
 };

@@ -55,7 +55,8 @@ class Step {
     if (passes_.model.mapping.has_ground) {
       column_heights_.set(callbacks.column_heights());
       // Not those of the CPU, which may contract products and sums: a restart would not have the same bits.
-      backend.for_each(count, VisitInMemory<Dim, LocateParticle<Dim>>{passes_.particles.view(), {above_ground()}});
+      backend.for_each(count, VisitInMemory<Dim, terrain::LocateAboveGround<Dim, ColumnHeights<Dim>>>{
+                                  passes_.particles.view(), above_ground()});
     }
     free_gaps_.set(model.free_gaps);
     set_layers(model.time);

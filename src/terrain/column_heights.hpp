@@ -4,12 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "base/select.hpp"
 #include "mpm/body_sizes.hpp"
-#include "mpm/scalar_index.hpp"
+#include "mpm/kernel.hpp"
 #include "mpm/section_width.hpp"
 #include "mpm/shape.hpp"
 
@@ -57,58 +58,57 @@ struct ColumnChunks {
 };
 
 // B, and its gradient by the shape functions of momentum and by linear ones.
-template <int Dim>
+template <int Dim, class Value = double>
 struct GroundBelow {
-  double height;
-  Vector<double, Dim - 1> slope, linear_slope;
+  Value height;
+  Vector<Value, Dim - 1> slope, linear_slope;
 };
 
-// half: half size of a particle, in cells. height(column): of a column of nodes [m]; height.around(lowest, heights),
-// if it exists, copies those of the three columns along each axis from the lowest one, x fastest.
-template <int Dim, class HeightOf>
-THAWSLIDE_HD GroundBelow<Dim> ground_below(const Vector<double, Dim - 1>& point, const mpm::HalfSize<double>& half,
-                                           double cell, const ColumnChunks<Dim>& columns, const HeightOf& height) {
+// half: half size of a particle, in cells. height(column): of a column of nodes [m]; for a batch, height.around(lowest,
+// heights) sets those of the three columns along each axis from the lowest one, x fastest.
+template <int Dim, class Value, class HeightOf>
+THAWSLIDE_HD GroundBelow<Dim, Value> ground_below(const Vector<Value, Dim - 1>& point, const mpm::HalfSize<Value>& half,
+                                                  double cell, const ColumnChunks<Dim>& columns,
+                                                  const HeightOf& height) {
   using std::floor;
-  using Chunks = ColumnChunks<Dim>;
-  typename Chunks::Column lowest{};
-  mpm::AxisWeights<double> axis[Dim - 1], linear[Dim - 1];
+  constexpr bool is_scalar = std::is_same_v<Value, double>;
+  std::array<Value, Dim - 1> lowest;
+  mpm::AxisWeights<Value> axis[Dim - 1], linear[Dim - 1];
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const double in_cells = point[static_cast<int>(a)] / cell;
-    const double node = floor(in_cells + 0.5);
-    const double first = -column_margin, last = columns.columns[a] - column_margin;
-    lowest[a] = static_cast<int>(max(first, min(node, last))) - 1;  // `first` for a number that is not finite
-    axis[a] = mpm::ugimp_weights<double>(in_cells - node, half, 1.0 / cell);
-    linear[a] = mpm::linear_weights<double>(in_cells - node, 1.0 / cell);
+    const Value in_cells = point[static_cast<int>(a)] / cell;
+    const Value node = floor(in_cells + 0.5);
+    const Value first = -static_cast<double>(column_margin),
+                last = static_cast<double>(columns.columns[a] - column_margin);
+    lowest[a] = max(first, min(node, last)) - 1.0;  // `first` for a number that is not finite
+    axis[a] = mpm::ugimp_weights<Value>(in_cells - node, half, 1.0 / cell);
+    linear[a] = mpm::linear_weights<Value>(in_cells - node, 1.0 / cell);
   }
-  GroundBelow<Dim> found;
-  found.height = 0.0;
-  found.slope.setZero();
-  found.linear_slope.setZero();
-  [[maybe_unused]] double known[Dim == 2 ? 3 : 9];
-  if constexpr (requires { height.around(lowest, known); }) {
+  [[maybe_unused]] std::array<Value, Dim == 2 ? 3 : 9> known;
+  if constexpr (!is_scalar) {
     height.around(lowest, known);
   }
-  const auto of_column = [&](int k) {
-    if constexpr (requires { height.around(lowest, known); }) {
-      return known[k];
+  const auto of_column = [&](int k) -> Value {
+    if constexpr (!is_scalar) {
+      return known[static_cast<std::size_t>(k)];
     } else if constexpr (Dim == 2) {
-      return height({lowest[0] + k});
+      return height({static_cast<int>(lowest[0]) + k});
     } else {
-      return height({lowest[0] + k % 3, lowest[1] + k / 3});
+      return height({static_cast<int>(lowest[0]) + k % 3, static_cast<int>(lowest[1]) + k / 3});
     }
   };
+  GroundBelow<Dim, Value> found{Value(0.0), Vector<Value, Dim - 1>::Zero(), Vector<Value, Dim - 1>::Zero()};
   if constexpr (Dim == 2) {
     for (int i = 0; i < 3; ++i) {
-      const double b = of_column(i);
+      const Value b = of_column(i);
       found.height += axis[0].weight[i] * b;
       found.slope[0] += axis[0].slope[i] * b;
       found.linear_slope[0] += linear[0].slope[i] * b;
     }
   } else {
     for (int j = 0; j < 3; ++j) {
-      double along = 0.0, slope = 0.0, linear_along = 0.0, linear_slope = 0.0;
+      Value along = 0.0, slope = 0.0, linear_along = 0.0, linear_slope = 0.0;
       for (int i = 0; i < 3; ++i) {
-        const double b = of_column(3 * j + i);
+        const Value b = of_column(3 * j + i);
         along += axis[0].weight[i] * b;
         slope += axis[0].slope[i] * b;
         linear_along += linear[0].weight[i] * b;
@@ -139,7 +139,7 @@ struct GroundAnywhere {
   mpm::WidthView section;
 
   [[nodiscard]] THAWSLIDE_HD Below below(const Point& point) const {
-    const GroundBelow<Dim> ground = ground_below<Dim>(point, half, cell, columns, height);
+    const GroundBelow<Dim> ground = ground_below<Dim, double>(point, half, cell, columns, height);
     Vector<double, Dim> normal;
     normal.template head<Dim - 1>() = ground.slope;
     normal[Dim - 1] = -1.0;
@@ -149,26 +149,31 @@ struct GroundAnywhere {
   [[nodiscard]] THAWSLIDE_HD double width(const Point& point) const { return section.at(point[0]); }
 };
 
-// Sets the height above the ground and the slopes of the ground from the position of a particle.
+// Kernel that sets the height above the ground and the slopes of the ground from the positions of particles.
 template <int Dim, class HeightOf>
 struct LocateAboveGround {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Totals = mpm::NoTotals;
+
   ColumnChunks<Dim> columns;
   HeightOf height;
   mpm::SizesOfBodies sizes;  // in cells
   double cell;               // [m]
 
-  template <class Particles>
-  THAWSLIDE_HD void operator()(Particles& particles, const mpm::ScalarIndex& at) const {
-    const std::uint32_t p = at.particle[0];
-    Vector<double, Dim - 1> point;
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               Totals& /*totals*/) const {
+    using Value = typename At::Value;
+    Vector<Value, Dim - 1> point;
     for (int a = 0; a + 1 < Dim; ++a) {
-      point[a] = particles.position(p, a);
+      point[a] = particles.position.load(at, a);
     }
-    const GroundBelow<Dim> ground = ground_below(point, sizes.of(particles, at), cell, columns, height);
-    particles.height_above_ground(p) = particles.position(p, Dim - 1) - ground.height;
+    const auto ground = ground_below<Dim, Value>(point, sizes.of(particles, at), cell, columns, height);
+    particles.height_above_ground.store(at, particles.position.load(at, Dim - 1) - ground.height);
     for (int a = 0; a + 1 < Dim; ++a) {
-      particles.ground_slope(p, a) = ground.slope[a];
-      particles.linear_slope(p, a) = ground.linear_slope[a];
+      particles.ground_slope.store(at, ground.slope[a], a);
+      particles.linear_slope.store(at, ground.linear_slope[a], a);
     }
   }
 };

@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "base/parallel.hpp"
+#include "mpm/particle_pass.hpp"
 #include "mpm/shape.hpp"
 
 namespace thawslide::terrain {
@@ -182,7 +183,8 @@ void FollowingGround<Dim>::limit_slopes(double steepest) {
 
 template <int Dim>
 GroundBelow<Dim> FollowingGround<Dim>::below(const Point& point, double half) const {
-  return ground_below(point, half, cell_, columns_, [this](const Column& column) { return column_height(column); });
+  return ground_below<Dim, double>(point, half, cell_, columns_,
+                                   [this](const Column& column) { return column_height(column); });
 }
 
 template <int Dim>
@@ -297,39 +299,39 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, int edge, GroundAtNo
   }
 }
 
-// Most particles lie in the same columns as the one before.
 template <int Dim>
 void FollowingGround<Dim>::locate(mpm::Particles<Dim>& particles) const {
-  struct HeightsOfLast {
+  using Lanes = mpm::SimdBatch::Value;
+  constexpr std::size_t count = Dim == 2 ? 3 : 9;
+  struct Heights {
     const FollowingGround* ground;
-    mutable Column lowest{};
-    mutable double heights[Dim == 2 ? 3 : 9] = {};
-    mutable bool is_known = false;
 
-    void around(const Column& column, double* found) const {
-      if (!is_known || column != lowest) {
-        lowest = column;
-        is_known = true;
-        for (int k = 0; k < (Dim == 2 ? 3 : 9); ++k) {
-          Column about = lowest;
-          about[0] += k % 3;
-          if constexpr (Dim == 3) {
-            about[1] += k / 3;
-          }
-          heights[k] = ground->column_height(about);
+    // Most particles lie in the same columns as the one before.
+    void around(const std::array<Lanes, Dim - 1>& lowest, std::array<Lanes, count>& heights) const {
+      alignas(sizeof(Lanes)) double by_lane[count][mpm::SimdBatch::most];
+      Column last{};
+      for (std::size_t lane = 0; lane < mpm::SimdBatch::most; ++lane) {
+        Column column;
+        for (std::size_t a = 0; a + 1 < Dim; ++a) {
+          column[a] = static_cast<int>(lowest[a][lane]);
         }
+        const bool is_known = lane > 0 && column == last;
+        for (std::size_t k = 0; k < count; ++k) {
+          Column about = column;
+          about[0] += static_cast<int>(k % 3);
+          if constexpr (Dim == 3) {
+            about[1] += static_cast<int>(k / 3);
+          }
+          by_lane[k][lane] = is_known ? by_lane[k][lane - 1] : ground->column_height(about);
+        }
+        last = column;
       }
-      std::copy(std::begin(heights), std::end(heights), found);
+      for (std::size_t k = 0; k < count; ++k) {
+        heights[k] = Lanes::load(by_lane[k]);
+      }
     }
   };
-  constexpr std::size_t of_task = 1024;
-  const std::size_t count = particles.size();
-  parallel_for((count + of_task - 1) / of_task, [&](std::size_t task) {
-    const LocateAboveGround<Dim, HeightsOfLast> locate_one{columns_, {this}, sizes_.view(), cell_};
-    for (std::size_t p = task * of_task; p < std::min(count, (task + 1) * of_task); ++p) {
-      locate_one(particles, mpm::ScalarIndex{{static_cast<std::uint32_t>(p)}});
-    }
-  });
+  mpm::for_particles_in_memory(particles, LocateAboveGround<Dim, Heights>{columns_, {this}, sizes_.view(), cell_});
 }
 
 template class FollowingGround<2>;
