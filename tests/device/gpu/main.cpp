@@ -138,10 +138,10 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
   for (const auto& [along, height] : escapes) {
     numbers.insert(numbers.end(), {along, height});
   }
-  const band::MapSample& map = *steps.sample_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell});
+  const band::MapSample* map = steps.sample_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell});
   const auto moments = std::get<mpm::MassMoments>(steps.reduce(mpm::MomentsOfParticle{}));
   numbers.insert(numbers.end(), {moments.mass, moments.mass_x, moments.mass_y});
-  for (const mpm::MapSums& of_cell : map.sums) {
+  for (const mpm::MapSums& of_cell : map != nullptr ? map->sums : std::vector<mpm::MapSums>()) {
     numbers.insert(numbers.end(), {of_cell.column.volume, of_cell.column.mass, of_cell.column.momentum_x,
                                    of_cell.column.water, of_cell.band.volume, of_cell.band.volume_temperature});
   }
