@@ -20,19 +20,6 @@ def test_history_is_that_of_the_command(slope: Path, tmp_path: Path, command_lin
     assert_identical(simulation.history, history_of(tmp_path / "run"))
 
 
-def test_a_changed_friction_slows_the_slide_down(slope: Path, simulation: Simulation) -> None:
-    simulation.run(until=0.5)
-    before = simulation.history["mean_velocity_m_s"].iloc[-1]
-    simulation.change({"basal.friction_angle": 45.0})
-    assert simulation.case["basal.friction_angle"] == 45.0
-    simulation.run()
-    other = Simulation(slope, threads=1, on_message=silent)
-    other.run()
-    assert before == other.history["mean_velocity_m_s"].iloc[10]
-    assert simulation.history["mean_velocity_m_s"].iloc[-1] < other.history["mean_velocity_m_s"].iloc[-1]
-    assert len(simulation.history) == len(other.history) == 21
-
-
 def test_a_changed_run_is_that_of_resume(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
     run = tmp_path / "run"
     command_line("run", slope, "--output", run, "--set", "time.end=0.5")

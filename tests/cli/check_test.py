@@ -96,15 +96,6 @@ def test_zero_drainage_by_default_has_a_warning(thawslide: Program, small_case: 
     assert note not in thawslide.ok("check", run)
 
 
-@pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system has no file whose first byte is an error")
-def test_an_error_during_reading_is_reported_with_file_and_reason(thawslide: Program, small_case: Path) -> None:
-    broken = small_case / "broken.csv"
-    broken.symlink_to("/proc/self/mem")
-    message = f"{broken}: cannot be read: Invalid argument. Check that the file is whole and may be read.\n"
-    outcome = thawslide("check", broken)
-    assert (outcome.returncode, outcome.stderr) == (2, f"error: {message}")
-
-
 COLUMNS = (ROOT / "cases" / "lamplugh-columns", *sets(grid__cell=20))
 CORE = min(os.sched_getaffinity(0))
 

@@ -152,14 +152,9 @@ def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: 
         assert "profile.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m " in message
 
 
-def test_a_path_next_to_the_release_measures_the_front_only(ran: Ran, thawslide: Program, tmp_path: Path) -> None:
+def test_a_path_next_to_the_release_measures_the_front_only(ran: Ran, tmp_path: Path) -> None:
     through, side = (write_case(tmp_path / f"{y:g}", path=[(35.0, y), (765.0, y)]) for y in (150.0, 270.0))
     words = ["--threads", 1, *sets(**COULOMB)]
     ends = [history(ran(*words, case=case, name=f"run-{case.name}")) for case in (through, side)]
     for name in ("front_position_m", "runout_m"):
         assert ends[1][name] == pytest.approx(ends[0][name], abs=1e-6) and ends[0][name][-1] > ends[0][name][0] + 3.0
-    message = thawslide.error("block", side)
-    assert "the path misses the release of body 'slide' by 75 m. Draw it through the release." in message
-    ground = ["--dem", side / "dem.tif", "--release", side / "release.geojson", "--thickness", 20]
-    message = thawslide.error("section", tmp_path / "section", *ground, "--line", side / "path.geojson")
-    assert not (tmp_path / "section").exists() and "path.geojson: the line does not cross the release" in message

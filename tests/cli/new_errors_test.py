@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 import rasterio
-from conftest import Program, Ran, Slope, edit, release_volume, run_facts, sets
-from terrain_files import CELL, COLUMNS, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
+from conftest import Program, Slope, edit, run_facts, sets
+from terrain_files import CELL, COLUMNS, SOUTH, THICKNESS, WEST, write_rectangle, write_thickness
 
 
 def raster(slope: Slope, thickness: float) -> Path:
@@ -110,18 +110,6 @@ def test_releases_too_thin_and_existing_folders_are_refused(slope: Slope) -> Non
     (folder / "notes.txt").write_text("mine")
     message = slope.error(folder=folder)
     assert message == "error: full: it exists and is not an empty folder. Choose another name.\n"
-
-
-def test_bodies_may_adjoin_but_not_overlap(ran: Ran, thawslide: Program, slope: Slope) -> None:
-    slope.ok()
-    with (slope.case / "case.toml").open("a") as case:
-        case.write('[body.toe]\nmaterial = "rock_ice"\nshape = "release"\nrelease = "toe.geojson"\nthickness = 12.0\n')
-    write_rectangle(slope.case / "toe.geojson", WEST + 310.0, SOUTH + 250.0)
-    message = thawslide.error("check", slope.case)
-    assert ": body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 about 412315, 5160300; " in message
-    write_rectangle(slope.case / "toe.geojson", WEST + 320.0, SOUTH + 250.0)
-    run = ran("--set", "time.end=0.01", case=slope.case)
-    assert release_volume(run) == pytest.approx(WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9)
 
 
 CREATE_AGAIN = r"`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle.*\n"

@@ -4,7 +4,6 @@ The DEM falls towards the east by 1 in 2. The area is a square of 200 m on it, 1
 100 m in it. A table gives each file the volume that it means [m3], or words of the message that refuses it.
 """
 
-import json
 import sqlite3
 import struct
 import zipfile
@@ -17,6 +16,7 @@ import numpy as np
 import rasterio
 from rasterio.enums import ColorInterp
 from rasterio.warp import transform
+from terrain_files import write_geojson
 
 from thawslide.arrays import Numbers
 from thawslide.map_files import write_polygons
@@ -260,13 +260,7 @@ def zipped(file: Path) -> Path:
 
 def geojson(file: Path, kind: str, coordinates: Any, crs: str | None = CRS) -> Path:
     """Write one feature as GeoJSON; without a system, in longitude and latitude."""
-    content: dict[str, Any] = {"type": "FeatureCollection"}
-    if crs:
-        content["crs"] = {"type": "name", "properties": {"name": crs}}
-    geometry = {"type": kind, "coordinates": coordinates}
-    content["features"] = [{"type": "Feature", "properties": {}, "geometry": geometry}]
-    file.write_text(json.dumps(content))
-    return file
+    return write_geojson(file, kind, coordinates, crs=crs)
 
 
 def reprojected(corners: Ring, crs: str) -> Ring:

@@ -7,10 +7,8 @@ from pathlib import Path
 import pytest
 from conftest import ROOT, Outcome, Program, Ran, run_facts, sets, snapshot_files
 
-FINE = sets(grid__cell=0.5, time__step=0.0005)
-# Additions to the small case that avoid all warnings.
+# An addition to the small case that avoids all warnings.
 BAND = '\n[band]\nmodel = "scaled"\nthickness = 0.2\n'
-LID = '\n[body.lid]\nmaterial = "rock"\nmin = [10.0, 3.0]\nmax = [14.0, 6.0]\ntemperature = -10.0\nporosity = 0.3\n'
 
 
 @pytest.fixture
@@ -64,18 +62,6 @@ def test_the_example_of_the_how_to_page_has_no_warnings(thawslide: Program, tmp_
     assert example
     (tmp_path / "case.toml").write_text(example[1])
     assert warnings_of(thawslide, tmp_path) == []
-
-
-def test_bodies_above_and_apart_from_others_have_warnings(thawslide: Program, plain_case: Path) -> None:
-    file = plain_case / "case.toml"
-    file.write_text(file.read_text() + LID)
-    assert warnings_of(thawslide, plain_case, *FINE) == []
-    lifted = [*sets(body__lid__min="[10.0,5.0]", body__lid__max="[14.0,8.0]"), *FINE]
-    notes = warnings_of(thawslide, plain_case, *lifted)
-    floats, apart = "body.lid floats: its underside is ", "body.lid stands apart from body.block, and contact.between_"
-    assert [any(words in note for note in notes) for words in (floats, apart)] == [True, True]
-    run = thawslide.ok("run", plain_case, "--output", plain_case.parent / "run", *lifted, *sets(time__end=0.001))
-    assert apart in run
 
 
 def test_json_contains_the_facts_of_the_text(thawslide: Program, plain_case: Path) -> None:

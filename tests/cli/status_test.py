@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from conftest import HANG, LAMPLUGH, Program, Ran, assert_identical, content_of, run_facts, sets
+from conftest import HANG, LAMPLUGH, Program, Ran, content_of, run_facts, sets
 from faults import FAILING_WRITES, running_in
 
 Process = subprocess.Popen[str]
@@ -124,25 +124,6 @@ def test_a_second_signal_stops_at_once(
     assert code in (-second, -first, 4)  # 4: step and files were complete before the second signal
     if code != 4:
         assert thawslide.json("status", tmp_path / "run")["state"] == "killed"
-
-
-def test_a_process_of_another_machine_counts_as_running(
-    thawslide: Program, without_locks: dict[str, str], small_case: Path, finished: Path, killed: Path
-) -> None:
-    """It counts until a user removes the lock file; on file systems with locks, these decide."""
-    lock, given = killed / "run.lock", {"environment": without_locks}
-    lock.write_text("process 12 on elsewhere\n")
-    before = (killed / "history.csv").read_bytes()
-    message = f"error: {killed} is being written by process 12 on elsewhere. Wait until "
-    for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"]):
-        assert thawslide.error(*words, **given).startswith(message)
-    assert (killed / "history.csv").read_bytes() == before
-    reported = thawslide.json("status", killed, **given)
-    assert (reported["state"], reported["process"]) == ("running", "process 12 on elsewhere")
-    lock.unlink()
-    thawslide.ok("resume", killed, **given)
-    assert not lock.exists()
-    assert_identical(killed, finished)
 
 
 def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

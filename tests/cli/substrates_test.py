@@ -1,7 +1,5 @@
 """Substrates, beds in polygons, and sections of varying width: facts of check, gaps, errors, and what a run uses."""
 
-import json
-import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -11,7 +9,7 @@ import pytest
 import terrain_files
 from conftest import ROOT, Program, Ran, Slope, datasets, history, sets, snapshot_files
 from rasterio.warp import transform
-from terrain_files import SOUTH, WEST, place, toml, write_dem, write_rectangle, write_release
+from terrain_files import SOUTH, WEST, place, toml, write_dem, write_features, write_rectangle, write_release
 
 GLACIER = toml("""
 [substrate.glacier] x_min = 12.0 | friction = "coefficient" | friction_coefficient = 0.12
@@ -154,12 +152,8 @@ def write_bed(
     for corners, attributes in polygons:
         x, y = np.transpose([*corners, corners[0]])
         ring = np.transpose(transform(terrain_files.SLOPE_CRS, crs, WEST + x, SOUTH + y)).tolist()
-        geometry = {"type": "Polygon", "coordinates": [ring]}
-        features.append({"type": "Feature", "properties": attributes, "geometry": geometry})
-    system = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:{crs.replace(':', '::')}"}}
-    file = folder / "bed.geojson"
-    file.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": features}))
-    return file
+        features.append(([ring], attributes))
+    return write_features(folder / "bed.geojson", "Polygon", features, crs)
 
 
 def box(west: float, south: float, east: float, north: float) -> list[Corner]:
@@ -190,16 +184,6 @@ def test_check_states_the_volume_of_polygons_in_any_system(thawslide: Program, c
     assert volume_of(thawslide, case, *sets(bed__polygons='["fan"]')) == pytest.approx(of_box, rel=1e-11)
     write_bed(case, [(triangle, {"depth": 2.5})], "EPSG:4326")
     assert volume_of(thawslide, case) == pytest.approx(of_triangle, rel=1e-5)
-
-
-def test_invalid_polygons_are_refused(thawslide: Program, case: Path) -> None:
-    """Messages are compared in tests/cpp/gis; a missing attribute and an overlap are those of any polygons."""
-    file = case / "bed.geojson"
-    write_bed(case, [(box(100.0, 100.0, 200.0, 200.0), {"depth": -2})])
-    for command in ("check", "run"):
-        message = thawslide.error(command, case)
-        assert f": bed.depth: {file}: the attribute 'depth' of polygon 1 is -2 m; allowed: " in message
-        assert re.match(rf"error: {re.escape(str(case))}/case\.toml:\d+:9: ", message)
 
 
 def test_a_run_entrains_from_polygons_with_an_exact_mass_budget(thawslide: Program, case: Path, tmp_path: Path) -> None:

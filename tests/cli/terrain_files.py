@@ -87,11 +87,22 @@ def write_thickness(file: Path, dem: Path, thickness: float) -> Path:
     return file
 
 
-def write_geojson(file: Path, kind: str, coordinates: object, *, crs: str = CRS_NAME, **attributes: object) -> Path:
-    """Write one feature in a reference system."""
-    feature = {"type": "Feature", "properties": attributes, "geometry": {"type": kind, "coordinates": coordinates}}
-    system = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:{crs.replace(':', '::')}"}}
-    file.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": [feature]}))
+def write_geojson(
+    file: Path, kind: str, coordinates: object, *, crs: str | None = CRS_NAME, **attributes: object
+) -> Path:
+    """Write one feature in a reference system; without one, in longitude and latitude."""
+    return write_features(file, kind, [(coordinates, attributes)], crs)
+
+
+def write_features(file: Path, kind: str, features: list[tuple[Any, dict[str, Any]]], crs: str | None) -> Path:
+    """Write features, given by their coordinates and attributes."""
+    system = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:{crs.replace(':', '::')}"}} if crs else None
+    content = [
+        {"type": "Feature", "properties": attributes, "geometry": {"type": kind, "coordinates": coordinates}}
+        for coordinates, attributes in features
+    ]
+    head = {"type": "FeatureCollection"} | ({"crs": system} if crs else {})
+    file.write_text(json.dumps(head | {"features": content}))
     return file
 
 

@@ -19,6 +19,7 @@ from thawslide.report_page import make_report
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))  # for `reproduction`
+sys.path.append(str(ROOT / "tests" / "cli"))  # for `terrain_files`
 
 TARGETS = """# reported values, made up
 quantity,time_s,value,unit,source

@@ -1,7 +1,6 @@
 """Terrain after an event, moving bottom, hydrographs and assets, on a slab whose results are known in closed form."""
 
 import csv
-import json
 from pathlib import Path
 
 import map_runs
@@ -10,6 +9,7 @@ import pytest
 import rasterio
 from conftest import snapshot_file, update_facts
 from map_runs import CELL, COLUMNS, LENGTH, MIDDLE, ROWS, SOUTH, SPEED, THICKNESS, VOLUME, WEST, ground, write_map
+from terrain_files import write_features
 
 from thawslide import ReportError, Run
 from thawslide.handover import assets_hit, terrain_after, write_dtopo, write_hydrographs
@@ -150,11 +150,8 @@ def test_assets_have_the_largest_values_of_the_slab(run: Run, tmp_path: Path) ->
         assets_hit(run, points=[("hut", 0.0, 0.0)])
     west, south = WEST + 290.0, SOUTH
     ring = [[west, south], [west + 30.0, south], [west + 30.0, MIDDLE], [west, MIDDLE], [west, south]]
-    system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::31287"}}
-    feature = {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [ring]}}
-    features = [feature | {"properties": each} for each in ({"name": "School"}, {"Name": "a\nb"}, {"name": ""}, {})]
-    path = tmp_path / "assets.geojson"
-    path.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": features}))
+    features = [([ring], each) for each in ({"name": "School"}, {"Name": "a\nb"}, {"name": ""}, {})]
+    path = write_features(tmp_path / "assets.geojson", "Polygon", features, "EPSG:31287")
     found, *others = assets_hit(run, polygons=path)
     assert found.name == "School" and [each.name for each in others] == ["polygon 2", "polygon 3", "polygon 4"]
     assert found.max_thickness_m == THICKNESS

@@ -1,11 +1,11 @@
 """DEMs and outlines of releases."""
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import rasterio
+from terrain_files import write_geojson
 
 from thawslide.arrays import Numbers
 
@@ -46,12 +46,6 @@ def rectangle(x: tuple[float, float], y: tuple[float, float], size: float = 1000
     return [[x0 + east, y0 + north] for east, north in corners]
 
 
-def write_outline(path: Path, *rings: Ring, crs: str | None = "urn:ogc:def:crs:EPSG::32608") -> Path:
+def write_outline(path: Path, *rings: Ring, crs: str | None = CRS) -> Path:
     """Write a polygon with holes as GeoJSON."""
-    geometry = {"type": "Polygon", "coordinates": list(rings)}
-    content: dict[str, object] = {"type": "FeatureCollection"}
-    if crs:
-        content["crs"] = {"type": "name", "properties": {"name": crs}}
-    content["features"] = [{"type": "Feature", "properties": {}, "geometry": geometry}]
-    path.write_text(json.dumps(content))
-    return path
+    return write_geojson(path, "Polygon", list(rings), crs=crs)

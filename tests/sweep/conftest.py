@@ -1,6 +1,5 @@
 """Small cases for sweeps, and files of maps."""
 
-import json
 import os
 import sys
 from pathlib import Path
@@ -11,9 +10,10 @@ import rasterio
 
 Capture = pytest.CaptureFixture[str]
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "api"))
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("api", "cli")]
 
 from slope_case import write_slope_case  # noqa: E402
+from terrain_files import write_geojson, write_raster  # noqa: E402
 
 from thawslide.arrays import Numbers  # noqa: E402
 
@@ -37,22 +37,14 @@ CELL, NO_DATA = 10.0, -9999.0
 
 def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0, cell: float = CELL) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
-    rows, columns = values.shape
-    with rasterio.open(
-        path, "w", driver="GTiff", dtype="float64", count=1, width=columns, height=rows, nodata=NO_DATA,
-        transform=rasterio.Affine(cell, 0.0, west, 0.0, -cell, north), crs="EPSG:32608",
-    ) as file:  # fmt: skip
-        file.write(np.where(np.isnan(values), NO_DATA, values), 1)
-    return path
+    known, south = np.where(np.isnan(values), NO_DATA, values), north - cell * len(values)
+    return write_raster(path, known, west, south, cell, "EPSG:32608", NO_DATA)
 
 
 def write_box(path: Path, west: float, east: float, south: float, north: float) -> Path:
     """Write a rectangle as GeoJSON."""
     ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
-    feature = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
-    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32608"}}
-    path.write_text(json.dumps({"type": "FeatureCollection", "crs": crs, "features": [feature]}))
-    return path
+    return write_geojson(path, "Polygon", [ring], crs="EPSG:32608")
 
 
 def read(path: Path) -> Numbers:
