@@ -45,10 +45,6 @@ ONE = (
         Job("cap", "pressure limited to the normal stress", ("basal.cap_pressure=true",)),
     )),
     ("Pore pressure", (
-        Job("clapeyron-printed", "sign of Eq. 4 as published", ("pressure.clapeyron=published",)),
-        Job("seepage-printed", "scaling of Eq. 23 as published", ("pressure.seepage_scaling=published",)),
-        Job("seepage-printed-dry", "the same, seeping water carries no heat",
-            ("pressure.seepage_scaling=published", "heat.advection=false")),
         Job("no-advection", "seeping water carries no heat", ("heat.advection=false",)),
         Job("seepage-off", "no seepage", ("pressure.seepage=false",)),
         Job("h-vertical", "H along the vertical", ("pressure.thickness_direction=vertical",)),
@@ -58,7 +54,6 @@ ONE = (
     ("Shear band and heat", (
         Job("first-layer", "xi on the first layer of cells", ("band.region=first_layer",)),
         Job("no-jump", "band 0.05 m thick throughout", ("band.thickness=0.05",)),
-        Job("masses-current", "masses from the current n", ("heat.masses=current",)),
         Job("apparent", "apparent heat capacity", ("heat.update=apparent_capacity",)),
     )),
     ("Body", (
