@@ -65,7 +65,6 @@ struct SumsOfParticle {
   Vector<double, Dim> gravity, origin;  // [m/s2]; of positions [m]
   physics::Phases phases;
   bool latent;            // melting consumes latent heat
-  bool current_masses;    // heat content uses masses from the current porosity and volume, as published
   bool melt_contracts;    // melting leaves a void
   double moved_distance;  // [m]
 
@@ -88,11 +87,7 @@ struct SumsOfParticle {
     sums.displacement = mass * particles.path_length(p);
     sums.plastic_strain = mass * particles.plastic_strain(p);
     add_heat(particles, p, sums);
-    if (current_masses) {
-      add_current_phases(particles, p, sums);
-    } else {
-      add_initial_phases(particles, p, sums);
-    }
+    add_phases(particles, p, sums);
     sums.seeped = particles.seeped_water.is_kept() ? particles.seeped_water(p) : 0.0;
     sums.gas = void_in_pores(particles, p);
     sums.initial_volume = particles.initial_volume(p);
@@ -109,40 +104,24 @@ struct SumsOfParticle {
  private:
   template <class Particles>
   THAWSLIDE_HD void add_heat(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
-    const double pore = current_masses ? particles.volume(p) * particles.porosity(p)
-                                       : particles.initial_volume(p) * particles.initial_porosity(p);
+    const double pore = particles.initial_volume(p) * particles.initial_porosity(p);
     const double molten =
         latent ? phases.ice_density * pore * phases.latent_heat * particles.liquid_saturation(p) : 0.0;
     sums.latent = molten / particles.thermal_scaling(p);
     sums.sensible = (particles.initial_volume(p) * particles.heat_content(p) - molten) / particles.thermal_scaling(p);
   }
 
-  // Saturation used for a particle's masses. Heat acts on its volume V/xi, the band's own part, and only that part
-  // melts. The rest represents material in its state at t = 0.
+  // The sum of ice and water is that at t = 0. Heat acts on the volume V/xi of a particle, the band's own part, and
+  // only that part melts. The rest represents material in its state at t = 0.
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD double saturation_of_masses(const Particles& particles, std::uint32_t p) const {
+  THAWSLIDE_HD void add_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
     const double start = particles.initial_saturation(p);
-    return start + (particles.liquid_saturation(p) - start) / particles.thermal_scaling(p);
-  }
-
-  // Masses at t = 0; the sum of ice and water remains constant.
-  template <class Particles>
-  THAWSLIDE_HD void add_initial_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
-    const double start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
+    const double saturation = start + (particles.liquid_saturation(p) - start) / particles.thermal_scaling(p);
     const double pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
                               (phases.water_density * start + phases.ice_density * (1.0 - start));
     sums.rock = sums.mass - pore_water;
     sums.ice = (1.0 - saturation) * pore_water;
     sums.water = saturation * pore_water;
-  }
-
-  // Masses from the current porosity and volume, as published. Their sum differs from the particle's mass.
-  template <class Particles>
-  THAWSLIDE_HD void add_current_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
-    const double pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
-    sums.rock = (particles.volume(p) - pore) * phases.rock_density;
-    sums.ice = pore * (1.0 - saturation) * phases.ice_density;
-    sums.water = pore * saturation * phases.water_density;
   }
 
   // Void in the pores of a particle's own part of the band [m3]. Pores that are still frozen have less void than their

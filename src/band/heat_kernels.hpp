@@ -234,22 +234,4 @@ struct UpdateHeatApparentCapacity {
   }
 };
 
-// Heat created by masses that follow porosity and volume [J]: the heat content changes at constant temperature.
-template <int Dim, class Law>
-struct UpdateHeatMass {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<>;
-  using Totals = double;
-
-  Law law;
-
-  template <class Particles, class At, class Seen, class Scatter>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& /*added*/, Totals& made) const {
-    const auto before = particles.heat_content.load(at), after = law.heat(particles, at);
-    particles.heat_content.store(at, after);
-    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (after - before));
-  }
-};
-
 }  // namespace thawslide::band

@@ -18,7 +18,6 @@ struct NodalGain {
 // Heat gained by the body in one step [J].
 struct HeatGain : NodalGain {
   double capacity = 0;  // created by updating with the old apparent capacity
-  double porosity = 0;  // created by masses from the current porosity and volume
 };
 
 // Sums over nodes.

@@ -22,8 +22,7 @@ struct BandParameters : BandPhysics {
   bool pressure = true;  // off: pore pressures are constant
   HeatFaces<Dim> at_faces;
   BandRegion region = BandRegion::all;
-  bool secant_capacity = true;  // off: the old apparent capacity, Eq. 19 as published
-  bool current_masses = false;  // heat content uses masses from the current porosity and volume, as published
+  bool secant_capacity = true;                 // off: the old apparent capacity, Eq. 19 as published
   std::vector<double> hydraulic_conductivity;  // by material [m/s]
 
   // True if the scaling of particles changes: with the thickness of the band [m] since the last call, as particles
@@ -43,13 +42,8 @@ struct BandParameters : BandPhysics {
 // Calls work(law) with the ParticleHeat of the run.
 template <int Dim, class Work>
 decltype(auto) with_particle_heat(const BandParameters<Dim>& model, const Work& work) {
-  return model.with_heat_content([&](const auto& content) {
-    using Content = std::decay_t<decltype(content)>;
-    if (model.current_masses) {
-      return work(ParticleHeat<Content, CurrentMasses>{content});
-    }
-    return work(ParticleHeat<Content, InitialMasses>{content});
-  });
+  return model.with_heat_content(
+      [&](const auto& content) { return work(ParticleHeat<std::decay_t<decltype(content)>>{content}); });
 }
 
 }  // namespace thawslide::band

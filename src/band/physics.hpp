@@ -25,14 +25,12 @@ using physics::FrozenRows;
 struct BandPhysics {
   physics::Phases phases;
   double reference_temperature = 0;  // Tref [C]
-  double clapeyron_sign = 1;         // +1 by default, -1 as published in Eq. 4
   double gravity = 0;                // magnitude [m/s2]
   bool conduction = true;
   bool advection = true;
   bool thermal_pressurization = true;
   bool volumetric_term = false;  // -div v in Eq. 8, which Eq. 23 drops
   bool seepage = true;
-  bool published_seepage = false;  // Eq. 23 with one xi over the whole pore space
   bool thickness_each_step = true;
   FrozenRows frozen_rows = FrozenRows::draining;
   bool ice_presses = true;              // P is that of ice and liquid while frozen; off: 0

@@ -27,8 +27,8 @@ struct Pressures {
 template <class Value>
 THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics& model, Value ice_pressure, Value temperature,
                                                Value saturation) {
-  const Value liquid = physics::liquid_pressure_clapeyron(model.phases, ice_pressure, temperature,
-                                                          model.reference_temperature, model.clapeyron_sign);
+  const Value liquid =
+      physics::liquid_pressure_clapeyron(model.phases, ice_pressure, temperature, model.reference_temperature);
   return {liquid, physics::pore_pressure(saturation, liquid, ice_pressure)};
 }
 
@@ -54,12 +54,11 @@ THAWSLIDE_HD double void_at_start(const BandPhysics& model, const Particles& par
              : 0.0;
 }
 
-// Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or undivided as published). Frozen
-// particles keep their pressure and act as sinks. Differences within a cell, which nodes do not resolve, diffuse
-// between particle and nodes; the change is subtracted at the nodes (Gerya and Yuen 2003). Impermeable particles do not
-// contribute. Frozen particles contribute their pores if these are part of the nodal pressure (FrozenRows); water that
-// reaches them is lost to the sink. Including them in only one of the two would give unbounded pressures at nodes with
-// few melted particles.
+// Seepage between melted particles (Eq. 23: flow times xi, pore space over xi). Frozen particles keep their pressure
+// and act as sinks. Differences within a cell, which nodes do not resolve, diffuse between particle and nodes; the
+// change is subtracted at the nodes (Gerya and Yuen 2003). Impermeable particles do not contribute. Frozen particles
+// contribute their pores if these are part of the nodal pressure (FrozenRows); water that reaches them is lost to the
+// sink. Including them in only one of the two would give unbounded pressures at nodes with few melted particles.
 template <int Dim>
 struct SeepageFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
@@ -77,7 +76,6 @@ struct SeepageFlows {
     const Value zero = 0.0;
     const Value hydraulic = hydraulic_conductivity(particles, at);
     const Value scaling = particles.thermal_scaling.load(at);
-    const Value pore_scaling = physics::pore_space_scaling(scaling, model.published_seepage);
     const Value volume = particles.volume.load(at);
     const Value storing =
         physics::storing_porosity(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
@@ -87,7 +85,7 @@ struct SeepageFlows {
     if (any(flows)) {
       const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure);
       const Value diffusivity =
-          scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(1.0), hydraulic);
+          scaling * scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(1.0), hydraulic);
       const Value inverse_layer = mpm::inverse_layer<Dim>(particles, at, inverse_cell);
       const Value fraction = physics::subgrid_diffusion_fraction(diffusivity, inverse_layer, Dim, dt);
       in_cell = select(flows, (state.value[0] - particles.pore_pressure.load(at)) * fraction, zero);
@@ -99,7 +97,7 @@ struct SeepageFlows {
     }
     particles.seepage_in_cell.store(at, in_cell);
     const auto participates = model.frozen_rows == FrozenRows::sealed ? flows : hydraulic > 0.0;
-    const Value pore_space = select(participates, volume / pore_scaling * storing, zero);
+    const Value pore_space = select(participates, volume / scaling * storing, zero);
     seepage.value[mpm::Seepage::pore_space] = pore_space;
     seepage.value[mpm::Seepage::seeping] = select(flows, pore_space, zero);
     seepage.value[mpm::Seepage::subgrid] = pore_space * in_cell;
@@ -250,7 +248,7 @@ struct PorePressure {
     using Value = typename At::Value;
     const Value storage =
         physics::pore_storage(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
-    const Value scaling = physics::pore_space_scaling(particles.thermal_scaling.load(at), model.published_seepage);
+    const Value scaling = particles.thermal_scaling.load(at);
     return model.phases.water_density * storage * pressure * particles.volume.load(at) / scaling;
   }
 

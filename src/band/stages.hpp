@@ -61,9 +61,6 @@ void conduct_heat(Passes& passes, const BandParameters<Dim>& model, const Hydrau
   }
   with_particle_heat(model, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
-    if constexpr (Law::masses_change) {
-      passes.total(passes.linear(), UpdateHeatMass<Dim, Law>{law}, &gain->porosity);
-    }
     const bool subgrid = model.secant_capacity && !first_step;
     passes.run(passes.linear(), HeatFlows<Dim, Law>{model, hydraulic, law, dt, 1.0 / passes.cell(), subgrid});
     SolveRates<Dim, NodesOf<Passes>> solve{passes.node_access(), nullptr,   dt, passes.cell(), model.at_faces,

@@ -46,9 +46,6 @@ enum class ThicknessChange { as_published, conserving };
 enum class AdvectionForm { as_published, conservative };
 enum class FrozenPressure { ice_pressure, none };
 enum class HeatUpdate { enthalpy, apparent_capacity };
-enum class HeatMasses { initial, current };
-enum class ClapeyronSign { usual, published };
-enum class SeepageScaling { consistent, published };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
 enum class BodyContact { bonded, frictional };
@@ -260,7 +257,6 @@ struct HeatBoundary {
 struct Heat {
   bool enabled = true;
   HeatUpdate update = HeatUpdate::enthalpy;
-  HeatMasses masses = HeatMasses::initial;
   bool latent = true;
   bool steam = true;
   bool conduction = true;
@@ -272,7 +268,6 @@ struct Heat {
 struct Pressure {
   bool enabled = true;
   bool thermal_pressurization = true;  // off: once melted, the liquid keeps r^-1 P_I
-  ClapeyronSign clapeyron = ClapeyronSign::usual;
   bool volumetric_term = false;
   FrozenPressure frozen = FrozenPressure::none;
   double residual_stress = std::numeric_limits<double>::infinity();  // Pa, s0; infinity: no excess pressure on thawing
@@ -282,7 +277,6 @@ struct Pressure {
   FrozenRows frozen_rows = FrozenRows::sealed;
   EndOfWater column_top = EndOfWater::vented;
   double water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
-  SeepageScaling seepage_scaling = SeepageScaling::consistent;
   ThicknessDirection thickness_direction = ThicknessDirection::normal;
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;
 };

@@ -42,13 +42,12 @@ void check_switches(const Case& checked, Reading& reading) {
                     "mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; velocities are filtered "
                     "once a step at most. Make the interval longer.",
                     mechanics.fmpm_interval, checked.time.step);
-  reading.refuse_if(
-      checked.heat.advection_form == AdvectionForm::conservative && water_seeps(checked) &&
-          (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial),
-      {"heat.advection_form", "heat.update", "heat.masses"},
-      "heat.advection_form is \"conservative\", and heat.update or heat.masses is as published, which "
-      "still creates heat; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set "
-      "both so, or heat.advection_form = \"as_published\".");
+  reading.refuse_if(checked.heat.advection_form == AdvectionForm::conservative && water_seeps(checked) &&
+                        checked.heat.update != HeatUpdate::enthalpy,
+                    {"heat.advection_form", "heat.update"},
+                    "heat.advection_form is \"conservative\", and heat.update is \"apparent_capacity\", which still "
+                    "creates heat. Set "
+                    "heat.update = \"enthalpy\", or heat.advection_form = \"as_published\".");
   reading.refuse_if(
       std::isfinite(checked.pressure.residual_stress) && checked.pressure.frozen != FrozenPressure::none,
       {"pressure.residual_stress", "pressure.frozen"},
@@ -76,10 +75,7 @@ void check_band_columns(const Case& checked, Reading& reading) {
   require(checked.heat.advection, "heat.advection", "false", "true");
   require(checked.heat.advection_form == AdvectionForm::conservative, "heat.advection_form", "\"as_published\"",
           "\"conservative\"");
-  require(checked.pressure.clapeyron == ClapeyronSign::usual, "pressure.clapeyron", "\"published\"", "\"usual\"");
   require(!checked.pressure.volumetric_term, "pressure.volumetric_term", "true", "false");
-  require(checked.pressure.seepage_scaling == SeepageScaling::consistent, "pressure.seepage_scaling", "\"published\"",
-          "\"consistent\"");
   require(checked.pressure.frozen == FrozenPressure::none, "pressure.frozen", "\"ice_pressure\"", "\"none\"");
   require(checked.pressure.frozen_rows != FrozenRows::draining, "pressure.frozen_rows", "\"draining\"",
           "\"sealed\" or \"vented\"");

@@ -154,20 +154,6 @@ inline std::vector<Choice<HeatUpdate>> choices(HeatUpdate) {
       {HeatUpdate::apparent_capacity, "apparent_capacity",
        "apparent capacity of the previous step, as published; the heat that it creates or loses is capacity_heat_J"}};
 }
-inline std::vector<Choice<HeatMasses>> choices(HeatMasses) {
-  return {{HeatMasses::initial, "initial", "masses at t = 0; no heat and no mass is created"},
-          {HeatMasses::current, "current",
-           "masses from the current porosity and volume, as published; the heat that they create is porosity_heat_J"}};
-}
-inline std::vector<Choice<ClapeyronSign>> choices(ClapeyronSign) {
-  return {{ClapeyronSign::usual, "usual",
-           "plus: P_L = P_I/r + rho_L L_f ln(T/Tref); the pressure decreases with temperature below Tref"},
-          {ClapeyronSign::published, "published", "minus, as in Eq. 4"}};
-}
-inline std::vector<Choice<SeepageScaling>> choices(SeepageScaling) {
-  return {{SeepageScaling::consistent, "consistent", "flow times xi, pore space divided by xi, as for heat in Eq. 19"},
-          {SeepageScaling::published, "published", "flow times xi, whole pore space, as in Eq. 23"}};
-}
 inline std::vector<Choice<ThicknessDirection>> choices(ThicknessDirection) {
   return {{ThicknessDirection::normal, "normal", "along the terrain normal"},
           {ThicknessDirection::vertical, "vertical", "along the vertical"}};

@@ -123,8 +123,6 @@ void declare_heat(Tables& tables) {
                  "true: temperature and phase change are computed (Eq. 9); false: temperatures remain as at t = 0",
                  {.source = "Lei et al., Eqs. 9, 18-20"}),
        parameter(&Heat::update, "update", "update of temperatures by heat", {.source = "Lei et al., Eqs. 18, 19"}),
-       parameter(&Heat::masses, "masses", "masses of rock, ice and water that store heat",
-                 {.source = "Lei et al., Eqs. 6, 9"}),
        parameter(&Heat::latent, "latent",
                  "true: melting absorbs and freezing releases latent heat; false: ice melts without latent heat",
                  {.source = "Lei et al., Eq. 9"}),
@@ -156,8 +154,6 @@ void declare_pressure(Tables& tables) {
            "true: heating raises the pressure of melted pore water; false: the pressure remains at P_I/r with r = "
            "rho_I/rho_L, and water does not seep",
            {.source = "Lei et al., Eq. 23"}),
-       parameter(&Pressure::clapeyron, "clapeyron", "sign of the logarithm in the Clapeyron equation",
-                 {.source = "Lei et al., Eq. 4"}),
        parameter(&Pressure::volumetric_term, "volumetric_term",
                  "true: compression of the body also raises the pressure of melted pore water: -div v in Eq. 8, which "
                  "Eq. 23 omits",
@@ -182,8 +178,6 @@ void declare_pressure(Tables& tables) {
        parameter(&Pressure::water_to_steam_viscosity, "water_to_steam_viscosity", "", at_least(0),
                  "ratio of the viscosities of water and steam, for seepage of steam from band columns into vented "
                  "material; 0: steam does not seep"),
-       parameter(&Pressure::seepage_scaling, "seepage_scaling", "scaling of seepage in the band",
-                 {.source = "Lei et al., Eq. 23"}),
        parameter(&Pressure::thickness_direction, "thickness_direction",
                  "direction of the thickness H in the ice pressure P_I = rho_I g H"),
        parameter(&Pressure::thickness_update, "thickness_update", "update of the thickness H in the ice pressure")});

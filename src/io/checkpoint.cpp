@@ -12,7 +12,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
-constexpr std::uint64_t format_version = 14;
+constexpr std::uint64_t format_version = 15;
 
 class Writer {
  public:

@@ -24,13 +24,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases& phases, 
   return phases.water_bulk_modulus * (saturation + (1.0 - saturation) * ratio) / (porosity * saturation);
 }
 
-// Divisor of the pore space when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or 1, as in Eq. 23 as
-// published.
-template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, bool as_published) {
-  return as_published ? Value(1) : scaling;
-}
-
 // D = K_L k_L/(n S gamma_w) [m2/s]; hydraulic conductivity k_L [m/s].
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases& phases, Value porosity, Value saturation,
@@ -53,7 +46,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value subgrid_diffusion_fraction(Value diff
 //   P_L = P_I/r + rho_L L_f ln(T/Tref),  r = rho_I/rho_L   generalized Clapeyron equation, T absolute        (Eq. 4)
 //   P_pore = S P_L + (1 - S) P_I                                                                            (Eq. 21)
 // Eq. 4 is published with a minus sign. With it, the pore pressure rises while the band thaws; with a plus sign, it
-// falls and then recovers, as the paper describes. Plus is the default; the published sign is an option.
+// falls and then recovers, as the paper describes.
 
 // P_I [Pa]; gravity [m/s2], depth H [m].
 template <class Value>
@@ -61,16 +54,15 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases& phases, do
   return phases.ice_density * gravity * depth;
 }
 
-// P_L of Eq. 4 [Pa]; temperatures [C]; sign +1, or -1 as published. Only meaningful with the weights of Eq. 21: far
+// P_L of Eq. 4 [Pa]; temperatures [C]. Only meaningful with the weights of Eq. 21: far
 // below 0 C it is about -12 MPa times a saturation of 1e-5.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value liquid_pressure_clapeyron(const Phases& phases, Value ice_pressure,
-                                                                     Value temperature, double reference_temperature,
-                                                                     double sign) {
+                                                                     Value temperature, double reference_temperature) {
   const Value absolute = temperature + celsius_to_kelvin;
   const double reference = reference_temperature + celsius_to_kelvin;
   return phases.water_density / phases.ice_density * ice_pressure +
-         sign * phases.water_density * phases.latent_heat * log_of_ratio(absolute, Value(reference));
+         phases.water_density * phases.latent_heat * log_of_ratio(absolute, Value(reference));
 }
 
 // P_pore of Eq. 21 [Pa].

@@ -296,13 +296,9 @@ void Simulation<Dim>::start_monitor() {
 template <int Dim>
 band::SumsOfParticle<Dim> Simulation<Dim>::sums_of_particle() const {
   const Model<Dim>& model = setup_.model;
-  return {model.motion.gravity,
-          model.origin,
-          model.motion.phases,
-          setup_.parameters.heat.latent,
-          model.band.current_masses,
-          model.band.melt_contracts,
-          setup_.parameters.time.moved_distance};
+  return {model.motion.gravity,      model.origin,
+          model.motion.phases,       setup_.parameters.heat.latent,
+          model.band.melt_contracts, setup_.parameters.time.moved_distance};
 }
 
 template <int Dim>

@@ -42,7 +42,6 @@ REGISTERS_OF_STEP = {
     "SweepFilter": (72, 106),  # 64, 96
     "UpdateHeat": (60, 60),  # 53, 53
     "UpdateHeatApparentCapacity": (62, 62),  # 56, 56
-    "UpdateHeatMass": (60, 60),  # 54, 54
     "UpdatePorePressure": (82, 88),  # 74, 80
     "UpdatePosition": (72, 106),  # 64, 96
 }

@@ -51,7 +51,6 @@ THERMAL = {
     "band_rescale_J": ("band rescaling", ORANGE),
     "advection_J": ("advection", PURPLE),
     "capacity_heat_J": ("capacity error", YELLOW),
-    "porosity_heat_J": ("change of phase masses", "#999999"),
     "drained_heat_J": ("advected by drainage", SKY),
 }
 # Band columns; friction heat is a term of THERMAL. Heat is zero for frozen material at 0 °C: that of the material which

@@ -137,8 +137,6 @@ std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
       {heat, "capacity_heat_J", "J",
        "heat created by an update with the old apparent capacity, with `heat.update = \"apparent_capacity\"`",
        w * b.capacity_heat},
-      {heat, "porosity_heat_J", "J",
-       "heat created by masses that follow porosity and volume, with `heat.masses = \"current\"`", w * b.porosity_heat},
       {heat, "drained_heat_J", "J", "heat lost with drained water, with `heat.advection_form = \"conservative\"`",
        w * b.drained_heat},
       {mechanical, "numerical_J", "J", "energy created by the transfers (FLIP, MUSL, the filter of FMPM), computed",
@@ -172,14 +170,13 @@ std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
       {band_columns, "column_void_m3", "m3", "volume of gas in the pores of the columns", w * s.columns.gas_void},
       {heat, "thermal_residual_J", "J", "residual of the thermal energy budget",
        w * (s.columns.heat + heat_out - heat_in + s.body.sensible + s.body.latent - b.initial_thermal -
-            b.friction_heat - b.boundary_heat - b.band_rescale - b.advection - b.capacity_heat - b.porosity_heat +
-            b.drained_heat + b.left_thermal - b.joined_thermal),
+            b.friction_heat - b.boundary_heat - b.band_rescale - b.advection - b.capacity_heat + b.drained_heat +
+            b.left_thermal - b.joined_thermal),
        true},
       {mass, "mass_kg", "kg", "mass of all particles", w * s.body.mass},
       {mass, "rock_kg", "kg", "mass of rock", w * s.body.rock},
       {mass, "ice_kg", "kg", "mass of ice; melting and freezing use the scaled volume `V/xi`", w * s.body.ice},
-      {mass, "water_kg", "kg",
-       "mass of water. Rock, ice and water sum to `mass_kg` unless `heat.masses` is `\"current\"`", w * s.body.water},
+      {mass, "water_kg", "kg", "mass of water. Rock, ice and water sum to `mass_kg`", w * s.body.water},
       {mass, "pore_water_kg", "kg", "`water_kg` with the gain and loss of the particles by seepage",
        w * (s.body.water + s.body.seeped)},
       {mass, "drained_water_kg", "kg", "water that seepage removed at the surface", w * b.drained_water},

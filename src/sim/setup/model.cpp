@@ -183,14 +183,11 @@ band::BandModel<Dim> make_band(const config::Case& parameters, const mpm::Motion
   }
   band.region = parameters.band.region;
   band.secant_capacity = parameters.heat.update == config::HeatUpdate::enthalpy;
-  band.current_masses = parameters.heat.masses == config::HeatMasses::current;
   band.lubrication = motion.lubrication;
   band.pressure = parameters.pressure.enabled;
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;
   band.volumetric_term = parameters.pressure.volumetric_term;
   band.seepage = parameters.pressure.seepage;
-  band.published_seepage = parameters.pressure.seepage_scaling == config::SeepageScaling::published;
-  band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? 1.0 : -1.0;
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
   band.gravity = parameters.general.gravity;

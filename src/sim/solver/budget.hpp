@@ -21,7 +21,7 @@ struct Budget {
   double numerical = 0;
   // Thermal.
   double friction_heat = 0, converted = 0, boundary_heat = 0, band_rescale = 0, advection = 0, capacity_heat = 0,
-         porosity_heat = 0, drained_heat = 0;
+         drained_heat = 0;
   // Water lost by seepage [kg]: at the surface, to frozen pores, and as gained by particles that left.
   double drained_water = 0, vented_water = 0, left_seeped = 0;
   // Impulses on the slide [N s]: gravity, ground, and constraints (walls, frames and mass damping).
@@ -46,15 +46,15 @@ struct Budget {
   // Calls visit(number) for each number above, in order.
   template <class Visit>
   void for_each(const Visit& visit) {
-    for (double* totals : {&stress_work,        &plastic,         &viscous,           &damping,
-                           &friction_work,      &contact_loss,    &frame_work,        &numerical,
-                           &pore_work,          &friction_heat,   &converted,         &boundary_heat,
-                           &band_rescale,       &advection,       &capacity_heat,     &porosity_heat,
-                           &initial_mechanical, &initial_thermal, &initial_mass,      &left_mechanical,
-                           &left_thermal,       &left_mass,       &joined_mechanical, &joined_thermal,
-                           &joined_mass,        &drained_heat,    &drained_water,     &vented_water,
-                           &left_seeped,        &bed_work,        &bed_heat,          &bed_joined_mass,
-                           &bed_joined_kinetic, &removed_mass}) {
+    for (double* totals : {&stress_work,     &plastic,           &viscous,         &damping,
+                           &friction_work,   &contact_loss,      &frame_work,      &numerical,
+                           &pore_work,       &friction_heat,     &converted,       &boundary_heat,
+                           &band_rescale,    &advection,         &capacity_heat,   &initial_mechanical,
+                           &initial_thermal, &initial_mass,      &left_mechanical, &left_thermal,
+                           &left_mass,       &joined_mechanical, &joined_thermal,  &joined_mass,
+                           &drained_heat,    &drained_water,     &vented_water,    &left_seeped,
+                           &bed_work,        &bed_heat,          &bed_joined_mass, &bed_joined_kinetic,
+                           &removed_mass}) {
       visit(*totals);
     }
     for (Vector<double, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum,
@@ -108,7 +108,6 @@ void add_step(const StepSums<Dim>& sums, const Setup<Dim>& setup, bool has_bed, 
   budget.boundary_heat += sums.heat.boundary;
   budget.advection += sums.heat.advection;
   budget.capacity_heat += sums.heat.capacity;
-  budget.porosity_heat += sums.heat.porosity;
   budget.drained_water += sums.water.drained.mass;
   budget.drained_heat += sums.water.drained.heat;
   budget.vented_water += sums.water.vented(model.band.phases);

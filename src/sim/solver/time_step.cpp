@@ -102,9 +102,8 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
           [&] { return fmt::format("heat conduction over {} m", rounded_text(length, 3)); });
   }
   if (parameters.pressure.enabled && parameters.pressure.seepage && found.seepage.value > 0.0) {
-    const double pore_length = model.band.published_seepage ? std::sqrt(cell * length) : length;
-    visit(diffusion_fraction * pore_length * pore_length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
-          found.seepage.particle, [&] { return fmt::format("seepage over {} m", rounded_text(pore_length, 3)); });
+    visit(diffusion_fraction * length * length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
+          found.seepage.particle, [&] { return fmt::format("seepage over {} m", rounded_text(length, 3)); });
   }
 }
 

@@ -65,7 +65,7 @@ TEST(CaseFile, DefaultsAreThoseOfThePaperButConserveHeatAndWater) {
 phases.rock_density = 2750.0 | phases.ice_density = 917.0 | phases.latent_heat = 333500.0 | freezing.exponent = 5.0
 freezing.curve = "power_law" | basal.friction = "lubricated" | basal.cohesion_law = "slip" | basal.cohesion = 0.0
 basal.lubrication_exponent = 2.0 | basal.min_solid_fraction = 0.05 | basal.max_solid_fraction = 0.85
-basal.residual_cohesion = 0.0 | basal.clamp = "keep_cohesion" | pressure.clapeyron = "usual" | body.porosity = 0.375
+basal.residual_cohesion = 0.0 | basal.clamp = "keep_cohesion" | body.porosity = 0.375
 mechanics.shape_function = "ugimp" | mechanics.transfer = "flip" | mechanics.fmpm_order = 2 | bed.friction_angle = 0.0
 bed.temperature = -10.0 | bed.porosity = 0.9 | bed.particles_per_axis = 2)";
   const std::string conserving = R"(

@@ -54,12 +54,12 @@ inline const std::string every_key = one_key_per_line(R"(
 [mechanisms] deformation = false | lubrication = false | pressurization = false
 [band] thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] } | region = "first_layer" |
   thickness_change = "as_published"
-[heat] enabled = false | update = "apparent_capacity" | masses = "current" | latent = false | steam = false |
+[heat] enabled = false | update = "apparent_capacity" | latent = false | steam = false |
   conduction = false | advection = false | advection_form = "as_published"
 [heat.boundary] x_min = { temperature = -6.0 } | x_max = { flux = 12.5 }
-[pressure] thermal_pressurization = false | clapeyron = "published" | volumetric_term = true |
+[pressure] thermal_pressurization = false | volumetric_term = true |
   frozen = "ice_pressure" | melt_contraction = false | skeleton_compressibility = 0.001 | seepage = false |
-  column_top = "sealed" | water_to_steam_viscosity = 20.0 | frozen_rows = "vented" | seepage_scaling = "published" |
+  column_top = "sealed" | water_to_steam_viscosity = 20.0 | frozen_rows = "vented" |
   thickness_direction = "vertical" | thickness_update = "frozen"
 [block] bends = false
 )");

@@ -128,8 +128,8 @@ std::vector<double> sums_of(const Simulation<Dim>& simulation) {
   const Budget<Dim>& budget = simulation.budget();
   std::vector<double> sums{contact.friction_work, contact.loss,          contact.damping,      contact.node_kinetic,
                            contact.area,          contact.friction_area, contact.shear_force,  budget.friction_heat,
-                           budget.boundary_heat,  budget.advection,      budget.capacity_heat, budget.porosity_heat,
-                           budget.band_rescale,   budget.drained_water,  budget.drained_heat,  budget.vented_water};
+                           budget.boundary_heat,  budget.advection,      budget.capacity_heat, budget.band_rescale,
+                           budget.drained_water,  budget.drained_heat,   budget.vented_water};
   for (const auto& vector : {contact.force, contact.constraint_impulse}) {
     sums.insert(sums.end(), vector.begin(), vector.end());
   }

@@ -90,7 +90,6 @@ void expect_effects(const config::Case& parameters, int steps) {
   EXPECT_NE(simulation.grid().blocks(), blocks);
   EXPECT_EQ(budget.friction_heat > 0.0, band.heat);
   EXPECT_EQ(budget.capacity_heat != 0.0, band.heat && !band.secant_capacity);
-  EXPECT_EQ(budget.porosity_heat != 0.0, band.heat && band.current_masses);
   EXPECT_EQ(budget.band_rescale != 0.0, parameters.band.thickness.table.value.size() > 1);
   if (band.pressure) {
     expect_water_to_work(simulation, first);
@@ -118,7 +117,7 @@ const Sets balanced = with_pressure +
                       "heat.advection_form=conservative";
 const Sets sealed = balanced + "pressure.frozen_rows=sealed", vented = balanced + "pressure.frozen_rows=vented";
 const Sets thickening = "band.thickness={time=[0.0, 0.3], value=[0.1, 0.2]}";
-const Sets capacity = "heat.update=apparent_capacity", masses = "heat.masses=current";
+const Sets capacity = "heat.update=apparent_capacity";
 const Sets voellmy =
     "heat.enabled=false; pressure.enabled=false; basal.friction=voellmy; basal.friction_coefficient=0.2; "
     "basal.turbulent_friction=100";
@@ -143,7 +142,6 @@ TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithEveryOptionInThePlane) {
   expect_the_steps_of_the_cpu<2>(vented + "band.thickness_change=conserving" + thickening, shuffled);
   expect_the_steps_of_the_cpu<2>(with_pressure + "band.region=first_layer" + thickening, backward);
   expect_the_steps_of_the_cpu<2>(with_pressure + capacity, shuffled);
-  expect_the_steps_of_the_cpu<2>(with_pressure + masses, backward);
 }
 
 TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithEveryOptionInSpace) {
@@ -151,7 +149,7 @@ TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithEveryOptionInSpace) {
   expect_the_steps_of_the_cpu<3>(voellmy, in_large_groups);
   expect_the_steps_of_the_cpu<3>(with_pressure, in_large_groups);
   expect_the_steps_of_the_cpu<3>(vented, backward);
-  expect_the_steps_of_the_cpu<3>(with_pressure + capacity + masses, in_large_groups);
+  expect_the_steps_of_the_cpu<3>(with_pressure + capacity, in_large_groups);
 }
 
 // The emulation shows a missing barrier: a step without the barrier of a number in every group of threads differs.

@@ -45,18 +45,6 @@ TEST(Block, UsesSaturationAndIceContentForTemperatureAndPorosity) {
   }
 }
 
-// Rows gain all the heat of friction; with masses that follow the porosity, additional heat is created.
-TEST(Block, UsesTheHeatMassesOfTheCase) {
-  const auto gain_over_friction_heat = [](const std::string& masses) {
-    const auto rows = run_block(paper_case(tilted + frozen, {"heat.masses=" + masses}));
-    const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
-    EXPECT_GT(last.at("friction_heat_J_m2"), 1e5);
-    return last.at("heat_gain_J_m2") / last.at("friction_heat_J_m2");
-  };
-  EXPECT_NEAR(gain_over_friction_heat("initial"), 1.0, 1e-9);
-  EXPECT_GT(std::abs(gain_over_friction_heat("current") - 1.0), 1e-5);
-}
-
 // A held block has the same motion, later by its release time.
 TEST(Block, RestsUntilItsReleaseTime) {
   const Sets fixed = "time.step=0.002; time.stepping=fixed; time.end=3";

@@ -23,31 +23,6 @@ const Variant bar{
     "material.bar.hydraulic_conductivity=1e-9; body.bar.max=[2,0.4]; body.bar.temperature=1; mechanics.enabled=true; "
     "pressure.enabled=true"};
 
-TEST(SeepageScaling, PublishedIsSlowerByXi) {
-  const auto seep = [&](const std::string& scaling, double step, double end) {
-    Simulation<2> simulation(
-        paper_case(bar + "mechanics.enabled=false; heat.enabled=false; band.thickness=0.0125",
-                   fmt::format("pressure.seepage_scaling={}; time.step={}; time.end={}", scaling, step, end)));
-    auto& particles = simulation.particles();
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
-    }
-    run_until(simulation, end);
-    return fields_by_id(simulation.particles()).at("pore_pressure");
-  };
-  const auto published = seep("published", 0.8, 40.0);
-  const auto consistent = seep("consistent", 0.1, 5.0);
-  const auto same_time = seep("consistent", 0.1, 40.0);
-  double largest = 0.0, difference = 0.0;
-  for (std::size_t p = 0; p < published.size(); ++p) {
-    EXPECT_NEAR(published[p], consistent[p], 1e-9 * 1e5);
-    largest = std::max(largest, std::abs(published[p]));
-    difference = std::max(difference, std::abs(published[p] - same_time[p]));
-  }
-  EXPECT_GT(largest, 1e4);
-  EXPECT_GT(difference, 0.1 * largest);
-}
-
 // Frequency of the first mode of a bar between rollers, from the time at which its velocity vanishes.
 double frequency(const Sets& sets, double* residual = nullptr) {
   const Sets between_rollers =
@@ -180,44 +155,6 @@ TEST(HeatUpdate, ApparentCapacityCreatesTheHeatOfItsColumn) {
   EXPECT_NEAR(value_of(published, "capacity_heat_J") / value_of(finer, "capacity_heat_J"), 2.0, 0.3);
   for (const HistoryRow* row : {&enthalpy, &published, &finer}) {
     EXPECT_NEAR(value_of(*row, "thermal_residual_J"), 0.0, 1e-9 * moved);
-  }
-}
-
-// A bar at -1 C expanded by a tenth in volume, with its grains according to Eq. 6, one time step later.
-HistoryRow after_swelling(const std::string& masses, double& made_by_hand, double& pore_mass_by_hand) {
-  Simulation<2> simulation(paper_case(bar, {"mechanics.enabled=false", "pressure.enabled=false",
-                                            "body.bar.temperature=-1.0", "heat.masses=" + masses}));
-  auto& particles = simulation.particles();
-  const auto& band = simulation.model().band;
-  made_by_hand = pore_mass_by_hand = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double before = particles.volume(p), saturation = particles.liquid_saturation(p);
-    particles.volume(p) = 1.1 * before;
-    particles.porosity(p) = physics::updated_porosity(band.phases, 0.375, std::log(1.1), 0.0);
-    const auto heat = [&](double porosity) {
-      return band.with_heat_content([&](const auto& content) { return content.content(-1.0, porosity); });
-    };
-    made_by_hand += 1.1 * before * heat(particles.porosity(p)) - before * heat(0.375);
-    pore_mass_by_hand +=
-        particles.volume(p) * particles.porosity(p) * (saturation * 1000.0 + (1.0 - saturation) * 917.0);
-  }
-  simulation.step(10.0);
-  return history_row(simulation);
-}
-
-TEST(HeatMasses, CurrentOnesCreateHeatAndIceThatTheBudgetReports) {
-  double heat = 0.0, pore_mass = 0.0;
-  const HistoryRow initial = after_swelling("initial", heat, pore_mass);
-  const HistoryRow current = after_swelling("current", heat, pore_mass);
-  EXPECT_EQ(value_of(initial, "porosity_heat_J"), 0.0);
-  EXPECT_NEAR(value_of(current, "porosity_heat_J") / heat, 1.0, 1e-12);
-  const auto water_and_ice = [](const HistoryRow& row) { return value_of(row, "ice_kg") + value_of(row, "water_kg"); };
-  EXPECT_NEAR(water_and_ice(current) / pore_mass, 1.0, 1e-12);
-  EXPECT_GT(water_and_ice(current), 1.2 * water_and_ice(initial));
-  EXPECT_NEAR(value_of(current, "rock_kg") / value_of(initial, "rock_kg"), 1.0, 1e-12);
-  EXPECT_NEAR(value_of(initial, "rock_kg") + water_and_ice(initial), value_of(initial, "mass_kg"), 1e-9);
-  for (const HistoryRow* row : {&initial, &current}) {
-    EXPECT_NEAR(value_of(*row, "thermal_residual_J"), 0.0, 1e-9 * std::abs(heat));
   }
 }
 

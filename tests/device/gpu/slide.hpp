@@ -177,7 +177,6 @@ band::SumsOfParticle<Dim> sums_of_particle() {
   of_particle.origin.setZero();
   of_particle.phases = phases();
   of_particle.latent = of_particle.melt_contracts = true;
-  of_particle.current_masses = false;
   of_particle.moved_distance = 1.0;
   return of_particle;
 }

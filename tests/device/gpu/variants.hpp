@@ -83,7 +83,6 @@ device::StepModel<Dim> model_of(Variant variant) {
       break;
     case Variant::published_heat:
       model.band.secant_capacity = false;
-      model.band.current_masses = true;
       break;
     case Variant::at_rest:
       model.moves = false;
