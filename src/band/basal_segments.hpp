@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "band/base_sums.hpp"
 #include "band/segment_creation.hpp"
 #include "exec/ordered_sum.hpp"
 #include "exec/selection.hpp"
@@ -87,7 +88,10 @@ class BasalSegments {
   [[nodiscard]] const ColumnsModel& model() const { return model_; }
   // In the memory of the executor.
   [[nodiscard]] std::span<const Segment> segments() const { return {segments_.data(), segments_.size()}; }
-  [[nodiscard]] const ColumnLedger& budget() const { return state_.budget; }
+  [[nodiscard]] BaseTotals totals() {
+    executor_.for_each(segments_.size(), SumSegment<Dim>{model_, segments_.data(), base_sums_.parts(segments_.size())});
+    return {base_sums_.total(), state_.budget};
+  }
   [[nodiscard]] double time_since_step() const { return state_.time_since_step; }
   void set_time_since_step(double time) { state_.time_since_step = time; }
   // For maps; empty in 2D.
@@ -293,6 +297,7 @@ class BasalSegments {
   exec::Selection<Executor> selection_{executor_};
   exec::UniqueKeys<Executor> unique_{executor_};
   exec::OrderedSum<ColumnLedger, Executor> budgets_{executor_};
+  exec::OrderedSum<BaseSums, Executor> base_sums_{executor_};
 };
 
 }  // namespace thawslide::band

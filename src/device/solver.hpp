@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "band/base_sums.hpp"
 #include "device/reductions.hpp"
 #include "device/solver_factory.hpp"
 #include "device/step_model.hpp"
@@ -51,8 +52,9 @@ class Solver {
   virtual void sort_in_memory() = 0;
   // Copies to the same number of particles, in their original order.
   virtual void copy_to(const mpm::ParticleView<Dim>& particles) = 0;
-  // Basal segments; requires band columns.
+  // Basal segments, and sums over them; both require band columns.
   [[nodiscard]] virtual band::SegmentsState<Dim> segments() const = 0;
+  virtual band::BaseTotals base_totals() = 0;
   // Measures stages [s] from now on, with a synchronization after each.
   virtual void time_stages() = 0;
   [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;

@@ -32,6 +32,7 @@ class SolverImpl final : public Solver<Dim> {
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { step_.copy_to(particles); }
   [[nodiscard]] band::SegmentsState<Dim> segments() const override { return step_.segments(); }
+  band::BaseTotals base_totals() override { return step_.base_totals(); }
   void time_stages() override { backend_.time_stages(); }
   [[nodiscard]] std::map<std::string, double> seconds() const override { return backend_.seconds(); }
 

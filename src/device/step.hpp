@@ -64,8 +64,9 @@ class Step {
 
   // Copies to the same number of particles, in their original order.
   void copy_to(const mpm::ParticleView<Dim>& particles) { passes_.particles.copy_to(particles); }
-  // Requires band columns.
+  // Both require band columns.
   [[nodiscard]] band::SegmentsState<Dim> segments() const { return band_columns_->state(); }
+  [[nodiscard]] band::BaseTotals base_totals() { return band_columns_->totals(); }
   void copy_momentum_to(std::vector<std::uint64_t>& blocks, std::vector<double>& records) {
     blocks = passes_.cells.block_keys();
     records = passes_.template of<mpm::Momentum>().get();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "band/base_sums.hpp"
+#include "band/base_state.hpp"
 #include "base/clocks.hpp"
 #include "base/state_numbers.hpp"
 #include "io/history_writer.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "band/base_sums.hpp"
 #include "base/rounding.hpp"
@@ -26,25 +27,15 @@ double warmest_particle(const sim::Simulation<Dim>& simulation) {
   return temperature;
 }
 
-bool has_boiled_dry(const physics::BandColumn& column) {
-  for (int k = 0; k < physics::ColumnCells::slide; ++k) {
-    if (column.water[k] <= 0.0 && column.temperature[physics::ColumnCells::ground + k] > boiling) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 template <int Dim>
 std::string StepWarnings::warning_of_dry(const sim::Simulation<Dim>& simulation) {
-  const auto* columns = simulation.band_columns();
-  if (columns == nullptr || !simulation.parameters().heat.steam) {
+  if (!simulation.has_band_columns() || !simulation.parameters().heat.steam) {
     return "";
   }
-  const auto dry =
-      std::ranges::count_if(columns->segments(), [](const auto& segment) { return has_boiled_dry(segment.column); });
+  const band::BaseSums base = simulation.base_totals().sums;
+  const std::uint64_t dry = base.boiled_dry;
   if (dry == 0) {
     return "";
   }
@@ -53,16 +44,15 @@ std::string StepWarnings::warning_of_dry(const sim::Simulation<Dim>& simulation)
       "limits temperature and friction. A thicker band (band.thickness) or {} keeps it cooler; "
       "docs/choosing-the-base.md.",
       rounded_text(simulation.time(), 3), dry == 1 ? "a column" : fmt::format("{} columns", dry),
-      dry == 1 ? "has" : "have", band::means_of(*columns).max_temperature,
+      dry == 1 ? "has" : "have", base.max_temperature,
       std::isfinite(simulation.parameters().band.mixing_slip) ? "a smaller band.mixing_slip"
                                                               : "one that mixes (band.mixing_slip)");
 }
 
 template <int Dim>
 std::string StepWarnings::warning_of_heat(const sim::Simulation<Dim>& simulation) {
-  const auto* columns = simulation.band_columns();
-  const bool boils = columns != nullptr && simulation.parameters().heat.steam;
-  const double hottest = columns == nullptr ? warmest_particle(simulation) : band::means_of(*columns).max_temperature;
+  const bool has_columns = simulation.has_band_columns(), boils = has_columns && simulation.parameters().heat.steam;
+  const double hottest = has_columns ? simulation.base_totals().sums.max_temperature : warmest_particle(simulation);
   if (!(hottest > (boils ? unphysical_temperature : boiling))) {
     return "";
   }
@@ -75,8 +65,7 @@ std::string StepWarnings::warning_of_heat(const sim::Simulation<Dim>& simulation
   }
   return fmt::format("warning: at {} s the base passes {:g} C. {}: temperatures above {:g} C are not physical.",
                      rounded_text(simulation.time(), 3), boiling,
-                     columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false",
-                     boiling);
+                     has_columns ? "Nothing boils, as heat.steam is false" : "Nothing in the model boils", boiling);
 }
 
 std::string StepWarnings::warning_of_removal(double time, const sim::Removed& removed) {

@@ -181,6 +181,8 @@ class Simulation {
     solver().copy_columns_back();
     return base_.columns.get();
   }
+  // Sums over the columns, in host or device memory; requires them.
+  [[nodiscard]] band::BaseTotals base_totals() const { return solver().base_totals(); }
   // Of a step on the CPU; empty without band columns.
   [[nodiscard]] std::vector<band::SegmentBelow> segments_below() const {
     return base_.columns ? base_.columns->summaries() : std::vector<band::SegmentBelow>();

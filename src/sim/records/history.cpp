@@ -22,8 +22,7 @@ struct State {
   Budget<Dim> budget;
   terrain::ContactWork<Dim> contact;
   Vector<double, Dim> force = Vector<double, Dim>::Zero(), weight = force;  // on the ground, and of the slide
-  band::BaseMeans base{};  // over the particles of the band or, if it consists of columns, over the base
-  band::ColumnSums columns{};
+  band::BaseSums base{};           // without columns: over the particles of the band, with mass for area
   band::ColumnLedger exchanged{};  // by the columns
   typename terrain::Bed<Dim>::Sums bed{};
   double bed_density = 1;
@@ -76,21 +75,22 @@ std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
       {motion, "runout_m", "m",
        "distance from the rear of the bodies that have moved, at t = 0, to the front; in 3D along the path",
        s.front.runout},
-      {band, "band_temperature_C", "C", "mean temperature of the band", s.base.temperature},
-      {band, "band_saturation", "1", "mean liquid saturation of the band", s.base.saturation},
-      {band, "band_pore_pressure_Pa", "Pa", "mean pore pressure of the band", s.base.pore_pressure},
+      {band, "band_temperature_C", "C", "mean temperature of the band", s.base.mean(s.base.temperature)},
+      {band, "band_saturation", "1", "mean liquid saturation of the band", s.base.mean(s.base.saturation)},
+      {band, "band_pore_pressure_Pa", "Pa", "mean pore pressure of the band", s.base.mean(s.base.pore_pressure)},
       {band_columns, "band_normal_pressure_Pa", "Pa", "mean normal pressure N, averaged over `band.load_time`",
-       s.base.load},
+       s.base.mean(s.base.load)},
       {band_columns, "band_shear_Pa", "Pa",
        "shear traction of the base over the area in contact, by friction and cohesion, in the last time step",
        s.contact.shear_force / s.contact.area},
-      {band_columns, "band_thickness_m", "m", "mean thickness of the band", s.base.thickness},
-      {band_columns, "band_max_temperature_C", "C", "maximum temperature of any column", s.base.max_temperature},
+      {band_columns, "band_thickness_m", "m", "mean thickness of the band", s.base.mean(s.base.thickness)},
+      {band_columns, "band_max_temperature_C", "C", "maximum temperature of any column",
+       s.base.known(s.base.max_temperature)},
       {band_columns, "band_max_wet_temperature_C", "C",
        "maximum temperature of cells that contain more than a thousandth of the water of full pores",
-       s.base.max_wet_temperature},
+       s.base.known(s.base.max_wet_temperature)},
       {band_columns, "band_dry_fraction", "1", "fraction of the base at which a cell of the band has no water left",
-       s.base.dry_fraction},
+       s.base.mean(s.base.dry_area)},
       {band_columns, "band_max_pressure_ratio", "1", "maximum ratio of pore pressure P to averaged N over all columns",
        s.base.max_pressure_ratio},
       {band, "band_friction_coefficient", "1",
@@ -145,9 +145,9 @@ std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
        w * (stored + dissipated + b.pore_work - b.frame_work - b.numerical + b.left_mechanical + b.bed_work -
             b.joined_mechanical - b.initial_mechanical),
        true},
-      {band_columns, "base_area_m2", "m2", "area of the base that has columns", w * s.columns.area},
+      {band_columns, "base_area_m2", "m2", "area of the base that has columns", w * s.base.area},
       {band_columns, "column_heat_J", "J",
-       "heat in the columns, with the friction heat accumulated for their next step", w * s.columns.heat},
+       "heat in the columns, with the friction heat accumulated for their next step", w * s.base.heat},
       {band_columns, "column_intake_J", "J",
        "heat gained with new columns, from the body and from the ground, less the return to the body when columns "
        "become shorter. Heat of cold material is negative",
@@ -155,7 +155,7 @@ std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
       {band_columns, "column_drained_J", "J", "heat lost with drained water", w * c.vented_heat},
       {band_columns, "column_steam_J", "J", "heat lost as steam", w * c.steam_heat},
       {band_columns, "column_left_J", "J", "heat lost with removed columns", w * c.left_heat},
-      {band_columns, "column_water_kg", "kg", "ice and water in the columns", w * s.columns.water},
+      {band_columns, "column_water_kg", "kg", "ice and water in the columns", w * s.base.water},
       {band_columns, "column_intake_kg", "kg",
        "ice and water gained with new columns and from the body, less the return to the body when columns become "
        "shorter",
@@ -164,14 +164,14 @@ std::vector<Column<Dim>> columns_of(const State<Dim>& s) {
       {band_columns, "column_steam_kg", "kg", "water lost as steam", w * c.steam},
       {band_columns, "column_left_kg", "kg", "ice and water lost with removed columns", w * c.left_water},
       {band_columns, "column_water_residual_kg", "kg", "residual of the columns' water budget",
-       w * (s.columns.water + water_out - water_in)},
+       w * (s.base.water + water_out - water_in)},
       {band_columns, "column_opening_m3", "m3", "volume that water at P = N has opened along the base",
-       w * s.columns.opening},
-      {band_columns, "column_void_m3", "m3", "volume of gas in the pores of the columns", w * s.columns.gas_void},
+       w * s.base.opening},
+      {band_columns, "column_void_m3", "m3", "volume of gas in the pores of the columns", w * s.base.gas_void},
       {heat, "thermal_residual_J", "J", "residual of the thermal energy budget",
-       w * (s.columns.heat + heat_out - heat_in + s.body.sensible + s.body.latent - b.initial_thermal -
-            b.friction_heat - b.boundary_heat - b.band_rescale - b.advection - b.capacity_heat + b.drained_heat +
-            b.left_thermal - b.joined_thermal),
+       w * (s.base.heat + heat_out - heat_in + s.body.sensible + s.body.latent - b.initial_thermal - b.friction_heat -
+            b.boundary_heat - b.band_rescale - b.advection - b.capacity_heat + b.drained_heat + b.left_thermal -
+            b.joined_thermal),
        true},
       {mass, "mass_kg", "kg", "mass of all particles", w * s.body.mass},
       {mass, "rock_kg", "kg", "mass of rock", w * s.body.rock},
@@ -247,16 +247,15 @@ HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& fron
   // Before the first step, the ground carries the weight of the mass at rest.
   const bool is_carried = simulation.ground() != nullptr && parameters.mechanics.enabled;
   state.force = simulation.step_number() == 0 && is_carried ? state.weight : state.contact.force;
-  const auto* columns = simulation.band_columns();
-  if (columns != nullptr) {
-    state.base = band::means_of(*columns);
-    state.columns = band::sums_of(*columns);
-    state.exchanged = columns->budget();
+  if (simulation.has_band_columns()) {
+    const band::BaseTotals totals = simulation.base_totals();
+    state.base = totals.sums;
+    state.exchanged = totals.budget;
   } else {
-    const double in_band = state.body.band_mass > 0.0 ? state.body.band_mass : std::nan("");
-    state.base.temperature = state.body.band_temperature / in_band;
-    state.base.saturation = state.body.band_saturation / in_band;
-    state.base.pore_pressure = state.body.band_pore_pressure / in_band;
+    state.base.area = state.body.band_mass;
+    state.base.temperature = state.body.band_temperature;
+    state.base.saturation = state.body.band_saturation;
+    state.base.pore_pressure = state.body.band_pore_pressure;
   }
   if (simulation.bed() != nullptr) {
     state.bed = simulation.bed()->sums();
@@ -264,7 +263,8 @@ HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& fron
   }
   HistoryRow row;
   for (const Column<Dim>& column : columns_of(state)) {
-    if ((column.group == band_columns && columns == nullptr) || (column.group == bed && simulation.bed() == nullptr) ||
+    if ((column.group == band_columns && !simulation.has_band_columns()) ||
+        (column.group == bed && simulation.bed() == nullptr) ||
         (column.group == guards && !config::guards_remove(parameters))) {
       continue;
     }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "band/base_sums.hpp"
+#include "band/base_state.hpp"
 #include "sim/setup/model.hpp"
 #include "terrain/bed.hpp"
 #include "terrain/ground_on_grid.hpp"

@@ -43,6 +43,7 @@ class CpuSolver final : public Solver<Dim> {
   [[nodiscard]] AnySums<Dim> reduce(const AnyReduction<Dim>& reduction) const override;
   [[nodiscard]] band::StepExtremes extremes() const override;
   [[nodiscard]] mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const override;
+  [[nodiscard]] band::BaseTotals base_totals() const override { return base_.columns->totals(); }
   [[nodiscard]] const band::MapSample* sample_map(const mpm::MapCells& cells) const override;
   [[nodiscard]] MomentumOfNodes momentum_of_nodes() const override;
   void copy_particles_back() const override {}

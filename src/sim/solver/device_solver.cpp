@@ -175,6 +175,15 @@ class DeviceSolver final : public Solver<Dim> {
     return found;
   }
 
+  [[nodiscard]] band::BaseTotals base_totals() const override {
+    if (!session_.solver) {
+      return host_.base_totals();
+    }
+    band::BaseTotals totals;
+    call([&] { totals = session_.solver->base_totals(); });
+    return totals;
+  }
+
   [[nodiscard]] const band::MapSample* sample_map(const mpm::MapCells& cells) const override {
     if (!session_.solver) {
       return host_.sample_map(cells);

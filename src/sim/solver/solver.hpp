@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "band/base_sums.hpp"
 #include "band/step_extremes.hpp"
 #include "device/reductions.hpp"
 #include "device/step_sums.hpp"
@@ -59,6 +60,8 @@ class Solver {
   [[nodiscard]] virtual band::StepExtremes extremes() const = 0;
   // mass: of the bodies of the path [kg].
   [[nodiscard]] virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) const = 0;
+  // Requires band columns.
+  [[nodiscard]] virtual band::BaseTotals base_totals() const = 0;
   // Sums for maps, valid until the next call; null in 2D.
   [[nodiscard]] virtual const band::MapSample* sample_map(const mpm::MapCells& cells) const = 0;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../physics/band_column_model.hpp"
-#include "band/base_sums.hpp"
+#include "band/base_state.hpp"
 #include "device/host_backend.hpp"
 #include "mpm/nodes.hpp"
 

@@ -60,6 +60,7 @@ class ForwardingSolver : public device::Solver<Dim> {
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { steps_->copy_to(particles); }
   [[nodiscard]] band::SegmentsState<Dim> segments() const override { return steps_->segments(); }
+  band::BaseTotals base_totals() override { return steps_->base_totals(); }
   void time_stages() override {}
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 
@@ -145,6 +146,8 @@ void expect_the_same_step(const Simulation<Dim>& found, const Simulation<Dim>& e
     EXPECT_EQ(found.bed()->state(), expected.bed()->state());
   }
   if (expected.band_columns() != nullptr) {
+    const band::BaseSums sums = found.base_totals().sums, sums_on_cpu = expected.base_totals().sums;
+    EXPECT_EQ(std::memcmp(&sums, &sums_on_cpu, sizeof(sums)), 0);
     EXPECT_EQ(band::numbers_of(*found.band_columns()), band::numbers_of(*expected.band_columns()));
   }
 }

@@ -113,11 +113,10 @@ TEST(BandColumns, SegmentsOfASpreadingSlideGrowAndSplit) {
   }
   run_until(simulation, 0.5);
   const std::size_t before = simulation.band_columns()->segments().size();
-  const double area = band::sums_of(*simulation.band_columns()).area,
-               water = band::sums_of(*simulation.band_columns()).water;
+  const double area = simulation.base_totals().sums.area, water = simulation.base_totals().sums.water;
   const double intake = value_of(history_row(simulation), "column_intake_kg");
   run_until(simulation, 3.0);
-  const double grown = band::sums_of(*simulation.band_columns()).area / area;
+  const double grown = simulation.base_totals().sums.area / area;
   double first = 1e9, last = -1e9;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     first = std::min(first, particles.position(p, 0));
@@ -145,9 +144,9 @@ TEST(BandColumns, SegmentsOfAShorteningSlideMerge) {
       }
       run_until(simulation, 0.5);
       const std::size_t before = simulation.band_columns()->segments().size();
-      const double area = band::sums_of(*simulation.band_columns()).area;
+      const double area = simulation.base_totals().sums.area;
       run_until(simulation, 3.0);
-      const double shortened = band::sums_of(*simulation.band_columns()).area / area;
+      const double shortened = simulation.base_totals().sums.area / area;
       EXPECT_LT(shortened, 0.8);
       EXPECT_LT(static_cast<double>(simulation.band_columns()->segments().size()), 0.85 * static_cast<double>(before));
       const HistoryRow row = history_row(simulation);
