@@ -114,9 +114,8 @@ def mistakes_text(found: dict[str, Any]) -> str:
             "range, with an unknown option, or misspelt. All parameters are tested. Each file must be refused "
             "with code "
             "2 before anything is written. The message must state file and line, the value found and the values "
-            f"allowed. Files without such a message: {len(row['findings'])}. The twenty commonest errors are "
-            f"tested word "
-            "for word (`tests/cli/mistakes_test.py`)."
+            f"allowed. Files without such a message: {len(row['findings'])}. Whole messages are "
+            "tested in `tests/cpp/config` and `tests/cli/mistakes_test.py`."
         )
         + findings_text(found["rows"])
     )

@@ -127,8 +127,3 @@ def test_a_notebook_runs_has_outputs_and_is_small(notebook: Path, tmp_path: Path
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     assert [len(cell["outputs"]) for cell in code_of(copy)] == [len(cell["outputs"]) for cell in code_of(notebook)]
-
-
-def test_the_friction_of_a_run_changes_halfway_in_under_20_lines() -> None:
-    (cell,) = code_of(ROOT / "docs" / "notebooks" / "change-friction-halfway.ipynb")
-    assert len(cell["source"]) < 20

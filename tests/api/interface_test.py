@@ -170,11 +170,3 @@ def test_callbacks_need_an_interval_and_are_called_once_per_step_at_most(simulat
     times: list[float] = []
     simulation.run(until=0.025, callback=lambda now: times.append(now.time), every=0.002)
     np.testing.assert_allclose(times, 0.005 * np.arange(1, 6))
-
-
-def test_objects_have_texts(tmp_path: Path, simulation: Simulation, run: Run) -> None:
-    assert repr(simulation).startswith("Simulation('") and "t = 0 s of 1 s" in repr(simulation)
-    simulation.step()
-    assert repr(simulation.nodes).startswith("Nodes(") and repr(simulation.maps) == "LiveMaps()"
-    assert repr(run) == f"Run({str(tmp_path / 'run')!r})"
-    assert repr(run.snapshot(0, fields=["mass", "volume"])) == "Snapshot(t = 0 s, 128 particles: mass, volume)"

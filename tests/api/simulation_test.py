@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import CommandLine, assert_identical, history_of, silent
 
-from thawslide import Case, Run, RunError, Simulation, UserError
+from thawslide import Case, RunError, Simulation, UserError
 
 
 @pytest.mark.parametrize("stepping", ["fixed", "adaptive"])
@@ -114,17 +114,6 @@ def test_a_callback_is_called_at_intervals_and_may_stop(slope: Path) -> None:
         other.run(callback=stop, every=0.0)
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "text"),
-    [("basal.frction_angle", 10.0, "10.0"), ("basal.friction_angle", 100.0, "100.0"), ("grid.cell", "big", '"big"')],
-)
-def test_wrong_key_has_its_message(slope: Path, command_line: CommandLine, key: str, value: object, text: str) -> None:
-    with pytest.raises(UserError) as error:
-        Case(slope, {key: value})
-    stated = command_line("check", slope, "--set", f"{key}={text}", code=2).stderr
-    assert stated == f"error: --set {error.value}\n"  # the library has no such option
-
-
 def test_a_restored_end_at_rest_remains_one(slope: Path) -> None:
     case = Case(slope, {"basal.friction_angle": 60.0, "time.end": 9.0, "time.stop_at_rest": 1.0})
     case.change({"time.rest_time": 0.1, "body.block.velocity": [5.0, -2.5]})
@@ -136,16 +125,6 @@ def test_a_restored_end_at_rest_remains_one(slope: Path) -> None:
     assert other.is_done and other.time == simulation.time
     other.change({"basal.friction_angle": 5.0})
     assert not other.is_done
-
-
-def test_refused_changes_have_the_messages_of_resume(slope: Path, run: Run, command_line: CommandLine) -> None:
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    simulation.run()
-    for change, words in ({"time.end": 0.5}, ["--end", 0.5]), ({"grid.cell": 10.0}, ["--set", "grid.cell=10.0"]):
-        with pytest.raises(UserError) as error:
-            simulation.change(change)
-        assert command_line("resume", run.folder, *words, code=2).stderr == f"error: {error.value}\n"
-    assert simulation.case["grid.cell"] == 5.0
 
 
 def test_a_failure_has_the_message_of_the_command_line(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:

@@ -1,6 +1,5 @@
 """`thawslide block` moves as a run of the same case, on planes, profiles and in valleys, and warns of unusual paths."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -79,33 +78,6 @@ def test_a_block_that_turns_back_moves_downhill_as_the_run_does(ran: Ran, thawsl
     assert rows["travel_distance_m"] == pytest.approx(rows["front_position_m"] - 100.0)
     assert rows["drop_height_m"] == pytest.approx(0.5 * rows["front_position_m"] - 30.0, abs=3.0)
     assert np.ptp(rows["drop_height_m"] - 0.5 * rows["front_position_m"]) < 1e-6
-
-
-@pytest.mark.parametrize("down", [1.0, -1.0])
-@pytest.mark.parametrize("across", [0.0, 0.3])
-def test_height_and_distance_begin_at_the_ends_of_the_whole_release(
-    ran: Ran, thawslide: Program, tmp_path: Path, down: float, across: float
-) -> None:
-    def ground(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        return 1000.0 - 0.5 * (x if down > 0.0 else 300.0 - x) - across * (y - MIDDLE)
-
-    write_case(tmp_path, ground)
-    if down < 0.0:
-        write_line(tmp_path / "path.geojson", [(290.0, MIDDLE), (10.0, MIDDLE)])
-    thawslide.ok("block", tmp_path, "--output", tmp_path / "block.csv", *sets(time__end=2.0))
-    rows = columns_of(tmp_path / "block.csv")
-    begin, rear = (50.0, 100.0) if down > 0.0 else (290.0, 200.0)
-    front = begin + down * rows["front_position_m"]
-    assert rows["travel_distance_m"] == pytest.approx(down * (front - rear))
-    # The highest point of the DEM inside the outline, whose sides along x lie on points.
-    top = ground(np.array(rear + 2.5 * down), np.array(MIDDLE - 15.0)) + 15.0
-    assert rows["drop_height_m"] == pytest.approx(top - ground(front, np.array(MIDDLE)))
-    assert down * (front[-1] - front[0]) > 3.0
-
-    ran(*sets(time__end=2.0), case=tmp_path / "case.toml")
-    facts = json.loads((tmp_path / "run" / "run.json").read_text())
-    assert rows["travel_distance_m"][-1] == pytest.approx(facts["travel_distance_m"], abs=1.5 * CELL)
-    assert rows["drop_height_m"][-1] == pytest.approx(facts["drop_height_m"], abs=1.5 * CELL)
 
 
 @pytest.fixture

@@ -1,9 +1,8 @@
-"""Cases are valid: those of the project, of comparisons with other codes, of a page, and random ones.
+"""Cases are valid: those of the project, of comparisons with other codes, and random ones.
 
 The files of `cases/` run for their first seconds. Of a comparison, a short run conserves the volume of the pile.
 """
 
-import math
 import os
 import re
 import tomllib
@@ -14,9 +13,8 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from conftest import ROOT, Program, Ran, columns_of, history, run_facts
+from conftest import ROOT, Program, history, run_facts
 from random_cases import draw, exit_code
-from terrain_files import SOUTH, WEST, write_rectangle, write_slope
 
 from reproduction.studies import frank, joffre, joffre_judged, refinement
 from reproduction.study import Job, Place
@@ -148,42 +146,6 @@ def test_short_run_of_the_frank_slide_has_the_pile_on_the_grid_of_shaltop(thawsl
     released = frank.figures(frank.Deposit(pile, pile, pile), terrain, pile)
     assert (found.x, found.y) == pytest.approx((released.x, released.y), abs=1.0)
     assert found.area == pytest.approx(released.area, rel=0.05)
-
-
-PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
-
-
-@pytest.fixture
-def page_case(thawslide: Program, tmp_path: Path) -> Path:
-    text, _ = re.findall(r"^ *```toml\n(.*?)^ *```$", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-    write_slope(tmp_path / "dem.tif")
-    write_rectangle(tmp_path / "release.geojson", WEST + 50.0, SOUTH + 250.0)
-    folder = tmp_path / "my-slide"
-    inputs = ["--dem", tmp_path / "dem.tif", "--release", tmp_path / "release.geojson"]
-    thawslide.ok("new", folder, *inputs, "--thickness", 20)
-    path = folder / "voellmy.toml"
-    path.write_text(text)
-    return path
-
-
-def test_page_case_runs_and_stays_below_its_terminal_velocity(
-    thawslide: Program, page_case: Path, tmp_path: Path, ran: Ran
-) -> None:
-    """On 30 degrees the release, 20 m along the vertical, cannot exceed sqrt(xi h cos (sin - mu cos))."""
-    fastest = {}
-    for turbulence in ("500", "100"):
-        rows = tmp_path / f"block-{turbulence}.csv"
-        words = ["--set", f"basal.turbulent_friction={turbulence}", "--output", rows]
-        thawslide.ok("block", page_case, *words)
-        fastest[turbulence] = columns_of(rows)["velocity_m_s"].max()
-        angle = math.radians(30.0)
-        terminal = math.sqrt(float(turbulence) * 20.0 * math.cos(angle) * (math.sin(angle) - 0.15 * math.cos(angle)))
-        assert 0.5 * terminal < fastest[turbulence] < 1.02 * terminal
-    assert fastest["100"] < fastest["500"]
-    words = ["--set", "time.end=2.0", "--threads", "1"]
-    run = ran(*words, case=page_case)
-    assert history(run)["mean_velocity_m_s"][-1] > 1.0
-    assert "turbulent_friction = 500.0  # m/s2" in (run / "case.toml").read_text()
 
 
 def test_random_cases_end_with_a_result_or_a_refusal_and_most_with_a_result(binary: Path, tmp_path: Path) -> None:

@@ -9,21 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from conftest import FALL, ROOT, Program, Ran, content_of, run_facts, sets, snapshot_files, with_profile
-
-
-def test_a_run_is_kept_until_a_case_replaces_it(ran: Ran, thawslide: Program, small_case: Path) -> None:
-    run = ran()
-    before = content_of(run)
-    with_profile(small_case, name="data.csv")
-    (small_case / "reports").mkdir()
-    (small_case / "reports" / "data.csv").write_text("quantity,time_s,value,unit,source\n")
-    file = small_case / "case.toml"
-    file.write_text(file.read_text() + '\n[report]\ntargets = "reports/data.csv"\n')
-    message = f"error: {small_case}/data.csv and {small_case}/reports/data.csv have the same name; "
-    for words in (["check", small_case], ["run", small_case, "--output", run, "--overwrite"]):
-        assert thawslide.error(*words).startswith(message)
-    assert content_of(run) == before
+from conftest import FALL, ROOT, Program, Ran, run_facts, sets, snapshot_files, with_profile
 
 
 def test_rows_and_snapshots_are_at_most_one_per_step(ran: Ran, thawslide: Program, small_case: Path) -> None:
@@ -34,13 +20,6 @@ def test_rows_and_snapshots_are_at_most_one_per_step(ran: Ran, thawslide: Progra
     assert len(snapshot_files(run)) == 21
     assert len((run / "history.csv").read_text().splitlines()) == 1 + 21
     assert run_facts(run)["steps"] == 20
-
-
-def test_large_numbers_of_steps_are_printed_briefly(thawslide: Program, small_case: Path) -> None:
-    words = sets(time__end=1e300, time__output_interval=1e299, time__history_interval=1e299)
-    message = thawslide.ok("check", small_case, *words)
-    assert "  steps       1e+303\n" in message and " years of processor time" in message
-    assert max(map(len, message.splitlines())) < 400
 
 
 @pytest.mark.parametrize("kind", ["a folder", "a pipe"])
@@ -76,24 +55,6 @@ def test_check_reports_facts_of_a_case_that_fails_in_its_first_steps(thawslide: 
     valid = thawslide.json("check", small_case)
     assert valid["error"] is None
     assert (valid["gpu"]["unavailable_reason"] is None) == (valid["gpu"]["wall_s"] is not None)
-
-
-def test_zero_drainage_by_default_has_a_warning(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    """The case there lists every default; the warning applies only if the user has not set the value."""
-    file, run = small_case / "case.toml", tmp_path / "run"
-    file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
-    note = "material.rock.hydraulic_conductivity is 0 m/s, its default: pore water cannot drain"
-    start = f"warning: {file}: {note}, and the avalanche may never stop."
-    assert start in thawslide.ok("check", small_case)
-    assert start in thawslide.ok("run", small_case, "--output", run, *sets(time__end=0.01))
-    assert note in thawslide.ok("check", run)
-    assert note in thawslide.ok("run", run, "--output", tmp_path / "again")
-    assert (run / "case.toml").read_text() == (tmp_path / "again" / "case.toml").read_text()
-    assert note in thawslide.ok("resume", run, "--end", 0.02)
-    assert note not in thawslide.ok("check", run, *sets(material__rock__hydraulic_conductivity=0))
-    meant = sets(time__end=0.01, material__rock__hydraulic_conductivity=0)
-    assert note not in thawslide.ok("run", small_case, "--output", run, "--overwrite", *meant)
-    assert note not in thawslide.ok("check", run)
 
 
 COLUMNS = (ROOT / "cases" / "lamplugh-columns", *sets(grid__cell=20))

@@ -44,28 +44,6 @@ def test_describe_names_each_key_and_has_a_markdown_page_and_a_schema(thawslide:
     assert schema["properties"]["time"]["properties"]["end"]["type"] == "number"
 
 
-def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
-    printed = thawslide.ok("check", LAMPLUGH)
-    facts = dict(re.findall(r"^  (\w+) +(\S.*)$", printed, re.MULTILINE))
-    assert int(facts["particles"].replace(",", "")) > 3000
-    assert facts["cells"].startswith(f"{1220 * 220:,} in the domain")
-    limit = r"0\.0\d+ s at the start \(adaptive\); the limit is 0\.00\d+ s, set by the viscosity of material 'rock_ice"
-    assert re.match(limit, facts["step"])
-    assert facts["steps"] == "about 40,000"
-    assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", facts["memory"])
-    without = r"not used: (this program was built without CUDA; .*|no NVIDIA (driver|GPU) found|the .*)"
-    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", facts["GPU"])
-    assert facts["body"].startswith("slide: 84,300 m3 and 174,000 t per metre of width, along 1,050 m; 80.3 m thick")
-    assert "              3,384 particles 5 m apart; 17.9 across in the median and 17.9 at most; -10 C\n" in printed
-    assert re.fullmatch(
-        r"about 180 MB: 201 snapshots of \d\d0 kB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs \d+ kB; \S+ [MG]B "
-        r"are free",
-        facts["disk"],
-    )
-    assert re.match(r"about \S+ (s|min|h) of processor time( \(this machine is busy: .*\))?$", facts["time"])
-    assert "picture" not in facts
-
-
 def test_check_plots(thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path) -> None:
     (small_case / "stiff.toml").write_text('[case]\nbased_on = "case.toml"\n')
     elsewhere = tmp_path / "elsewhere"

@@ -131,19 +131,6 @@ def test_the_path_start_does_not_affect_the_block(thawslide: Program, tmp_path: 
             assert found[name] == pytest.approx(complete[name][: len(found[name])], rel=1e-6, abs=1e-6), name
 
 
-@pytest.mark.parametrize("is_reversed", [False, True])
-def test_section_keeps_its_direction(thawslide: Program, tmp_path: Path, is_reversed: bool) -> None:
-    case = write_case(tmp_path / "case", is_reversed=is_reversed)
-    words = ["--dem", case / "dem.tif", "--release", case / "release.geojson", "--thickness", 20]
-    printed = thawslide.ok("section", tmp_path / "section", *words, "--line", case / "path.geojson")
-    note = "warning: --line: path.geojson was drawn against the direction of the slide"
-    assert (note in printed) == is_reversed
-    lines = (tmp_path / "section" / "profile.csv").read_text().splitlines()
-    rows = np.array([line.split(",") for line in lines if line[0].isdigit()], dtype=float)
-    assert rows[0, 1] < rows[-1, 1], "the opposite slope rises above the start"
-    assert rows[np.argmax(rows[:, 2] - rows[:, 1]), 0] < 200.0, "the release is at the beginning"
-
-
 def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: Program, small_case: Path) -> None:
     with_profile(small_case, "distance_m,terrain_elevation_m\n0,0\n200,0\n200.00000000000003,0\n400,0\n")
     words = sets(grid__min="[-4100,-2]", grid__max="[400,10]", terrain__extend="true")

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
-from conftest import Program, Ran, Slope, content_of, run_facts, sets
+from conftest import Program, Ran, Slope, sets
 from faults import before_its_first_checkpoint
 from terrain_files import SOUTH, WEST
 
@@ -35,30 +35,6 @@ def test_a_3d_run_keeps_other_files(
     alps.unlink()
     (run / "maps").rmdir()
     assert sorted(path.name for path in (run / "inputs").iterdir()) == ["case.toml"]
-
-
-def test_a_folder_of_other_files_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    """Names of files of a run make no run."""
-    folder = tmp_path / "pictures"
-    for name in ("letter.txt", "snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"):
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text("mine\n")
-    before = content_of(folder)
-    refusal = f"error: the output folder {folder} contains other files, and no run. Specify another --output.\n"
-    for words in ([], ["--overwrite"]):
-        assert thawslide.error("run", small_case, "--output", folder, *words) == refusal
-    assert content_of(folder) == before
-
-
-def test_a_missing_checkpoint_is_reported(thawslide: Program, killed: Path) -> None:
-    last = killed / "checkpoint.bin"
-    last.unlink()
-    status = thawslide.ok("status", killed)
-    assert "  last checkpoint " in status and "no checkpoint yet" not in status
-    printed = thawslide.ok("resume", killed)
-    note = f"{last} is missing; the run continues from the previous checkpoint"
-    assert printed.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
-    assert last.is_file() and not list(killed.glob("*.damaged*"))
 
 
 @pytest.mark.parametrize(("name", "kind"), [("pipe", "a pipe"), ("/dev/zero", "a device")])

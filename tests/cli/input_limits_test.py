@@ -80,17 +80,6 @@ def test_linked_output_folders_are_written_and_kept_or_refused(thawslide: Progra
     assert run.is_symlink() and (disk / "run.json").is_file()
     thawslide.ok("run", small_case, "--output", plain, *words)
     assert_identical(run, plain)
-    # A link among the files of a run is replaced; its target is kept.
-    kept = small_case.parent / "kept"
-    kept.mkdir()
-    (kept / "000000.vtkhdf").write_text("of another")
-    for each in (disk / "snapshots").iterdir():
-        each.unlink()
-    (disk / "snapshots").rmdir()
-    (disk / "snapshots").symlink_to(kept)
-    thawslide.ok("run", small_case, "--output", run, "--overwrite", *words)
-    assert not (disk / "snapshots").is_symlink() and (kept / "000000.vtkhdf").read_text() == "of another"
-    assert run_facts(run)["status"] == "done"
     run = small_case.parent / "dangling"
     run.symlink_to(small_case.parent / "nowhere")
     problem = "it is a link to a folder that is not there. Give another --output."

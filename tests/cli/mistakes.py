@@ -1,4 +1,4 @@
-"""The twenty most common mistakes of new users and further ones, with the complete messages."""
+"""Mistakes of new users with the complete messages, beyond those that tests/cpp/config compares as a whole."""
 
 import re
 import shlex
@@ -7,7 +7,7 @@ from pathlib import Path
 
 # Blocks of: name; one change of the small case (OLD -> NEW), options, or files (NAME: TEXT), where | is a new line; the
 # message, of which each LINE:COLUMN follows the path of the case file. {case} is its folder.
-COMMON = """
+MISTAKES = """
 a key misspelt
   youngs_modulus -> young_modulus
     19:1: key 'material.rock.youngs_modulus' is missing: it is needed when mechanics.enabled is true. Add
@@ -16,44 +16,6 @@ a key misspelt
     here: law, youngs_modulus, poisson_ratio, friction_angle, dilation_angle, cohesion, residual_cohesion,
     residual_friction_angle, softening_strain, softening_slip, tension_cutoff, gaps_close_first, viscosity_number,
     viscosity_time, hydraulic_conductivity.
-
-a key left out
-  step = 0.001| ->
-    4:1: key 'time.step' is missing: it is needed when time.stepping is "fixed". Add 'step = ...' to [time]: fixed time
-    step, or upper limit of the adaptive time step, a number, > 0 [s].
-
-a key in the wrong table
-  elevation = 0.0 -> elevation = 0.0|porosity = 0.3
-    18:1: key 'terrain.porosity' is not known in [terrain]; it belongs in [body.NAME] or [bed]. Allowed here: type,
-    elevation, slope, file, extend, crs, resample, smooth.
-
-a number in quotes
-  end = 0.2 -> end = "0.2"
-    5:7: time.end is the text "0.2"; allowed: a number, > 0 [s]; remove the quotes.
-
-a number with its unit
-  cell = 1.0 -> cell = 1.0 m
-    11:12: this is not TOML: Error while parsing key-value pair: expected a comment or whitespace, saw 'm'. Write
-    numbers without units, and text in quotes. Correct the line; see https://toml.io for the syntax.
-
-a decimal comma
-  cell = 1.0 -> cell = 1,0
-    11:9: this is not TOML: Error while parsing key-value pair: expected a comment or whitespace, saw ','. Write a
-    decimal point, not a comma. Correct the line; see https://toml.io for the syntax.
-
-a key twice
-  end = 0.2 -> end = 0.2|end = 0.3
-    6:7: this is not TOML: Error while parsing key-value pair: cannot redefine existing floating-point 'end'. A table
-    contains a key only once. Correct the line; see https://toml.io for the syntax.
-
-a keyword misspelt
-  law = "mohr_coulomb" -> law = "mohr-coulomb"
-    20:7: material.rock.law is "mohr-coulomb"; did you mean 'mohr_coulomb'? Allowed: "elastic", "mohr_coulomb". Correct
-    it, or leave it out for the default "mohr_coulomb".
-
-yes instead of true
-  elevation = 0.0 -> extend = "yes"
-    17:10: terrain.extend is the text "yes"; allowed: true or false. Correct it, or leave it out for the default false.
 
 a fraction in percent
   porosity = 0.3 -> porosity = 30
@@ -76,44 +38,12 @@ a body without a name
     31:1: 'temperature' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
     32:1: 'porosity' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
 
-a material that does not exist
-  material = "rock" -> material = "rocks"
-    27:12: body.block.material is 'rocks', and there is no [material.rocks]; did you mean 'rock'? Allowed: rock.
-
-three numbers in 2D
-  min = [0.0, -2.0] -> min = [0.0, 0.0, -2.0]
-    12:7: grid.min is an array of 3 numbers; allowed: 2 numbers, as case.dimension is 2.
-
-a body outside the domain
-  max = [14.0, 3.0] -> max = [24.0, 3.0]
-    30:7: body.block reaches from (10, 0) to (24, 3), outside the domain, which is (0, -2) to (20, 10); move the body,
-    or widen grid.min and grid.max.
-
-a body below the ground
-  min = [10.0, 0.0] -> min = [10.0, -1.0]
-    29:7: body.block is below the terrain: at x = 10 m its elevation is -1 m and the ground's 0 m; allowed: on the
-    ground or above it. Lift the body, or lower the terrain.
-
-a step too long
-  step = 0.001 -> step = 0.01
-    6:8: time.step is 0.01 s, above the limit of 0.00442 s set by the elastic wave of material 'rock' (225 m/s,
-    viscosity 4.97e-05 s) on cells of 1 m, with a Young's modulus of 1e+08 Pa and 2,200 kg/m3. Use a smaller time.step,
-    or time.stepping = "adaptive".
-
 a file that does not exist
   type = "flat"|elevation = 0.0 -> type = "profile"|file = "profil.csv"
   profile.csv: distance_m,terrain_elevation_m|0,0|20,0|
     17:8: terrain.file is "profil.csv": no such file ({case}); did you mean 'profile.csv'? Allowed: a file, relative to
     the folder of the case file.
 
-a profile with semicolons
-  type = "flat"|elevation = 0.0 -> type = "profile"|file = "profile.csv"
-  profile.csv: distance_m;terrain_elevation_m|0;0|20;0|
-    17:8: terrain.file: {case}/profile.csv:1: the header is 'distance_m;terrain_elevation_m'; allowed:
-    distance_m,terrain_elevation_m[,surface_elevation_m], separated by commas. A DEM is read with terrain.type = "dem".
-"""
-# Messages that tests/cpp/config does not compare as a whole.
-FURTHER = """
 a decimal comma in quotes
   cell = 1.0 -> cell = "1,5"
     11:8: grid.cell is the text "1,5"; allowed: a number, > 0 [m]; write a decimal point: 1.5.
@@ -181,5 +111,4 @@ def parsed(block: str) -> Mistake:
     return Mistake(name, changes, words, files, " ".join(line.strip() for line in lines if line[2] == " "))
 
 
-COMMON_MISTAKES = [parsed(block) for block in COMMON.strip().split("\n\n")]
-FURTHER_MISTAKES = [parsed(block) for block in FURTHER.strip().split("\n\n")]
+CASES = [parsed(block) for block in MISTAKES.strip().split("\n\n")]

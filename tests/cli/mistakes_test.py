@@ -5,13 +5,13 @@ from typing import Any
 
 import pytest
 from conftest import SMALL_CASE, Program
-from mistakes import COMMON_MISTAKES, FURTHER_MISTAKES, Mistake
+from mistakes import CASES, Mistake
 from wrong_cases import FAULTS, case_with, faults, wrong_cases, wrong_cases_by_table, wrong_messages
 
 Tables = list[dict[str, Any]]
 
 
-@pytest.mark.parametrize("mistake", COMMON_MISTAKES + FURTHER_MISTAKES, ids=lambda mistake: mistake.name)
+@pytest.mark.parametrize("mistake", CASES, ids=lambda mistake: mistake.name)
 def test_mistakes_have_their_message(thawslide: Program, small_case: Path, mistake: Mistake) -> None:
     mistake.write(SMALL_CASE, small_case)
     run = small_case.parent / "run"

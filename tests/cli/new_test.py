@@ -1,6 +1,5 @@
 """Maps from a DEM and a polygon with two commands."""
 
-import math
 import re
 import signal
 import tomllib
@@ -166,34 +165,3 @@ def test_polygons_of_the_ground_become_substrates(thawslide: Program, tmp_path: 
     assert "valley_floor: within its polygons, " in thawslide.ok("check", slope.case)
     message = slope.error("--snow", tmp_path / "no.geojson", folder=tmp_path / "none")
     assert message == "error: --snow: no.geojson: there is no such file. Correct the path.\n"
-
-
-def size_text(size: float) -> str:
-    """Return a size below 1 GB [bytes] as `check` prints it, with two significant digits."""
-    value, unit = (size / 1e3, "kB") if size < 1e6 else (size / 1e6, "MB")
-    return f"{round(value, 1 - math.floor(math.log10(value))):g} {unit}"
-
-
-def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    slope.ok()
-    with rasterio.open(slope.case / "dem.tif") as file:
-        of_ground = file.width * file.height * 8
-    usual = "2 x 2 of the DEM's, to be at least 18 m wide: three particle distances"
-    note = (
-        "warning: maps.cell is 5 m, and grid.cell 12 m: a map cell contains few particles or only one, and the maximum "
-        "speeds and pressures are those of single particles. Without maps.cell, maps have cells of 20 m.\n"
-    )
-    for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):
-        printed = thawslide.ok("check", slope.case, *words)
-        assert (note in printed) == (cell == 5)
-        facts = dict(re.findall(r"^  (\w+) +(\S.*)$", printed, re.MULTILINE))
-        reported = re.fullmatch(
-            rf"(\d+) x (\d+) cells of {cell} x {cell} m \({re.escape(reason)}\); "
-            r"memory (\S+ [kM]B) for the release, at most (\S+ [kM]B)",
-            facts["maps"],
-        )
-        assert reported and reported[3] != reported[4], facts["maps"]
-        all_maps = 12 * int(reported[1]) * int(reported[2]) * 8 + 2 * of_ground
-        assert f", maps {size_text(all_maps)} before they are compressed; " in facts["disk"]
-    refusal = thawslide.error("check", slope.case, "--set", "maps.cell=0.01")
-    assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

@@ -29,8 +29,7 @@ def warnings_of(thawslide: Program, case: Path, *words: str) -> list[str]:
     return notes
 
 
-COARSE = "{case}:11:8: grid.cell: across the median thickness of body block, 1.5 m, there are too few particles"
-SOFT, OUTPUT = "material.rock.youngs_modulus", "time.output_interval"
+SOFT = "material.rock.youngs_modulus"
 
 
 # tests/cpp/config and tests/cpp/sim compare most of these warnings as a whole.
@@ -39,21 +38,17 @@ SOFT, OUTPUT = "material.rock.youngs_modulus", "time.output_interval"
     [
         (sets(body__block__min="[10.0,2.0]", body__block__max="[14.0,5.0]"),
          "{case}:27:1: body.block floats: its underside is 2 m above what is below it, and it falls for 0.64 s "),
-        (sets(body__block__max="[14.0,1.5]"), COARSE),
-        (sets(band__thickness=5), "--set band.thickness=5: band.thickness is 5 m: more than the body block, 3 m thick"),
         (sets(material__rock__youngs_modulus=1e6, time__step=0.001),
          f"--set {SOFT}=1000000.0: {SOFT} is 1000000 Pa: the weight of body block, 65,000 Pa where it is thickest, "),
-        (sets(time__output_interval=100), f"--set {OUTPUT}=100: {OUTPUT} is 100 s: longer than "),
     ],
 )  # fmt: skip
 def test_unintended_values_have_a_warning(thawslide: Program, plain_case: Path, words: list[str], start: str) -> None:
     """Each appears once, with location, value and remedy; `run` has the same warning."""
-    cell = [] if start == COARSE else sets(grid__cell=0.5)
-    words = [*cell, *sets(time__step=0.0005), *words]
+    words = [*sets(grid__cell=0.5, time__step=0.0005), *words]
     (reported,) = warnings_of(thawslide, plain_case, *words)
     assert reported.startswith(start.format(case=plain_case / "case.toml"))
     run = thawslide.ok("run", plain_case, "--output", plain_case.parent / "run", *sets(time__end=0.001), *words)
-    assert f"warning: {reported}\n".replace("0.2 s, which", "0.001 s, which") in run
+    assert f"warning: {reported}\n" in run
 
 
 def test_the_example_of_the_how_to_page_has_no_warnings(thawslide: Program, tmp_path: Path) -> None:
@@ -62,25 +57,6 @@ def test_the_example_of_the_how_to_page_has_no_warnings(thawslide: Program, tmp_
     assert example
     (tmp_path / "case.toml").write_text(example[1])
     assert warnings_of(thawslide, tmp_path) == []
-
-
-def test_json_contains_the_facts_of_the_text(thawslide: Program, plain_case: Path) -> None:
-    reported = thawslide.json("check", plain_case)
-    (body,) = reported["bodies"]
-    # 4 m x 3 m on cells of 1 m; 70 % rock and 30 % ice are 2200.1 kg/m3, with little water.
-    assert body["name"] == "block" and body["particles"] == reported["particles"] == 48
-    assert (body["volume_m3"], body["area_m2"]) == pytest.approx((12.0, 4.0), rel=1e-12)
-    assert body["mass_kg"] == pytest.approx(12.0 * 2200.1, rel=1e-6)
-    assert body["mean_thickness_m"] == body["median_thickness_m"] == body["max_thickness_m"] == 3.0
-    assert body["spacing_m"] == 0.5 and body["particles_across"] == 6.0 and body["resting_fraction"] == 1.0
-    assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["coldest_C"] == body["warmest_C"] == -10.0
-    assert reported["cells"] == 240 and reported["steps"] == 200 and reported["step_s"] == 0.001
-    assert reported["memory"]["particles_bytes"] == 48 * 631 and reported["memory"]["available_bytes"] > 1e6
-    disk = reported["disk"]
-    assert disk["snapshots"] == 5 and disk["history_rows"] == 21 and disk["checkpoints"] == 3
-    assert disk["need_bytes"] == pytest.approx(
-        5 * disk["snapshot_bytes"] + 3 * disk["checkpoint_bytes"] + disk["history_bytes"] + disk["inputs_bytes"]
-    )
 
 
 def test_the_estimated_disk_space_is_that_of_the_files(thawslide: Program, plain_case: Path) -> None:
@@ -157,15 +133,3 @@ def test_the_reported_checkpoint_size_includes_maps_and_columns(ran: Ran, thawsl
     after_spreading = thawslide.json("check", case, *words)["disk"]["checkpoint_bytes"]
     run = ran(*words, case=case)
     assert after_spreading > 2.0 * (run / "checkpoint.bin").stat().st_size
-
-
-def test_the_memory_error_names_the_cell_and_not_the_terrain(thawslide: Program) -> None:
-    """The limit is too small even for terrain and program alone."""
-    environment = thawslide.environment | {"OMP_NUM_THREADS": "1"}
-    outcome = thawslide.shell('ulimit -v 300000; exec "$@"', "check", VALLEY, *sets(grid__cell=2), env=environment)
-    assert outcome.returncode == 2, outcome.stderr
-    assert "terrain.file" not in outcome.stderr
-    assert re.search(
-        r"(grid\.cell is 2 m, which makes 52,000,000 particles: the run needs about 8[23] GB|memory of this machine)",
-        outcome.stderr,
-    ), outcome.stderr

@@ -1,4 +1,4 @@
-"""Every command and function that opens rasters or polygons of a user reads the same odd files alike, or refuses them.
+"""Every command that opens rasters or polygons of a user reads the same odd files alike, or refuses them.
 
 The table of files is in odd_files.py. A new command that reads such files belongs in the tables here.
 """
@@ -14,9 +14,8 @@ import pytest
 import rasterio
 from conftest import Program, columns_of, sets, with_profile
 
-from thawslide import Case, Simulation, UserError, scarp
+from thawslide import Case, Simulation, UserError
 from thawslide.errors import ReportError
-from thawslide.scarps import Plane
 from thawslide.scarps.command import main as scarp_command
 from thawslide.scores.forecast import read_forecast
 from thawslide.scores.maps import overlap_areas
@@ -105,15 +104,6 @@ class Reader:
         if scarp_command([str(dem), "--plane", PLANE, "--within", str(within), "--output", str(output)]):
             raise RefusedError(self.capsys.readouterr().err)
         return volume_in(output)
-
-    @staticmethod
-    def scarp_function(dem: Path, within: Path) -> float:
-        """Return the volume of the function `scarp`."""
-        plane = Plane(*CENTRE, DIP, 90.0, odd.THICK)
-        try:
-            return scarp(dem, plane, within=within).volume
-        except ReportError as error:
-            raise RefusedError(str(error)) from error
 
 
 def check_with_dem(reader: Reader, file: Path) -> float:
@@ -217,7 +207,6 @@ WITH_DEM: dict[str, Read] = {
     "simulation": simulation_with_dem,
     "section": section_with_dem,
     "scarp": lambda reader, file: reader.scarp(file, reader.release),
-    "scarp_function": lambda reader, file: reader.scarp_function(file, reader.release),
 }
 WITH_THICKNESS: dict[str, Read] = {
     "new": lambda reader, file: reader.new(reader.dem, file),
@@ -233,7 +222,6 @@ WITH_POLYGONS: dict[str, Read] = {
     "simulation": lambda reader, file: reader.simulated(body__slide__release=str(file)),
     "substrate": lambda reader, file: reader.substrate(substrate__ice__outline=file),
     "scarp": lambda reader, file: reader.scarp(reader.dem, file),
-    "scarp_function": lambda reader, file: reader.scarp_function(reader.dem, file),
     "score": score_with_polygons,
 }
 WITH_LINE: dict[str, Read] = {"check": check_with_probe, "block": block_with_path, "section": section_with_line}

@@ -45,24 +45,13 @@ def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, r
     printed = thawslide.ok("check", rough_case)
     reported = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
     assert reported in printed
-    assert (
-        f"In V valleys of 90 degrees filled less than {40 * WIDTH:g} m wide the filter removes more than 3 % of the "
-        "friction of their sides" in printed
-    )
-    assert f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.99 m rms" in printed
     facts = thawslide.json("check", rough_case)["roughness"]
     assert facts["noise_m"] == pytest.approx(NOISE, rel=0.2)
-    assert facts["noise_cells"] == pytest.approx(facts["noise_m"] / 10.0)
-    assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (10.0, WIDTH, 40 * WIDTH)
-    assert facts["remaining_slope"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
     assert facts["apparent_friction"] < 0.03
     left = thawslide.json("check", rough_case, *sets(terrain__smooth=0))
     note = next(note for note in left["warnings"] if note.startswith("terrain.smooth: "))
     assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
-    for words in (sets(terrain__smooth=20), sets(terrain__smooth=30)):
-        smooth = thawslide.json("check", rough_case, *words)
-        assert not [note for note in smooth["warnings"] if note.startswith("terrain.smooth: ")]
 
 
 def test_run_resolved_case_and_resume_have_the_same_terrain(ran: Ran, thawslide: Program, rough_case: Path) -> None:

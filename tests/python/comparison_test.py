@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from figure_parts import titled
 
-from reproduction.studies import avaframe, grounds, results, wedge
+from reproduction.studies import grounds, results, wedge
 from thawslide import ReportError
 from thawslide.maps import Grid, Map, read_map
 
@@ -94,26 +93,6 @@ def test_coarser_map_covers_the_cells_of_the_terrain_in_blocks() -> None:
     np.testing.assert_array_equal(placed[:, 2:6], np.repeat(np.repeat(coarse.values, 2, axis=0), 2, axis=1)[:5])
     same = Map(Grid(7.5, 2.5, 5.0, 5.0, 2, 2), np.array([[1.0, 2.0], [3.0, 4.0]]))
     assert results.on_grid(same, terrain).values[:2, 1:3].tolist() == [[1.0, 2.0], [3.0, 4.0]]
-
-
-def test_the_maps_of_a_figure_have_one_scale() -> None:
-    grid = Grid(0.0, 0.0, 10.0, 10.0, 40, 30)
-    terrain = Map(grid, np.add.outer(np.linspace(0.0, 100.0, 30), np.zeros(40)), "EPSG:31287")
-    thickness = [np.zeros((30, 40)), np.zeros((30, 40))]
-    thickness[0][5:20, 5:20], thickness[1][5:20, 10:25] = 3.0, 8.0
-    found = [
-        results.Outcome(name, Map(grid, values), Map(grid, 2.0 * values), Map(grid, values), 0.0, 1.0)
-        for name, values in zip(("A 1", "B 2, no viscosity"), thickness, strict=True)
-    ]
-    corners = [[50.0, 50.0], [90.0, 50.0], [90.0, 90.0], [50.0, 50.0]]
-    for field, factor in (("thickness", 1.0), ("speed", 2.0)):
-        figure = avaframe.comparison_figure(grounds.PLANE, terrain, corners, found, field, "words")
-        maps = [titled(figure, title) for title in ("(a) A", "(b) B, no viscosity")]
-        for axes, values in zip(maps, thickness, strict=True):
-            shown = axes.images[-1].get_array()
-            np.testing.assert_array_equal(~np.ma.getmaskarray(shown), values > 0.0)
-            np.testing.assert_allclose(shown[values > 0.0], factor * values[values > 0.0])
-        assert maps[0].images[-1].norm is maps[1].images[-1].norm
 
 
 GRID = Grid(-200.0, -200.0, 5.0, 5.0, 81, 81)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT, TARGETS, MakeRun, history_columns, numbers, page_of, write_history
+from conftest import TARGETS, MakeRun, history_columns, numbers, page_of, write_history
 from figure_parts import line
 from matplotlib.collections import FillBetweenPolyCollection
 from wrong_tables import FORCE_RANGE, FORCES, HEADER, WRONG_FORCES
@@ -268,23 +268,6 @@ def test_keys_of_the_case_are_checked(make_run: MakeRun) -> None:
         case.write_text(f'{text}force_record = "inputs/{name}.csv"\n{keys}')
         with pytest.raises(ReportError, match=re.escape(message)):
             _ = Run(made).force_record
-
-
-def test_record_of_lamplugh_has_the_values_of_its_source() -> None:
-    """Values from the figures of the notebook: peaks of the components, and the end of the force."""
-    texts = [(ROOT / "cases" / name / "lamplugh_force.csv").read_bytes() for name in ("lamplugh", "lamplugh-columns")]
-    assert texts[0] == texts[1]
-    record = read_force_record(ROOT / "cases" / "lamplugh" / "lamplugh_force.csv", BAND, "")
-    time, best = record.time, record.best
-    size = np.sqrt(sum(part**2 for part in best.values()))
-    assert (time[size.argmax()], time[best["up"].argmax()]) == (31.0, 21.0)
-    assert size.max() / 1e11 == pytest.approx(2.04, abs=0.03) and best["up"].max() / 1e11 == pytest.approx(
-        1.46, abs=0.02
-    )
-    assert best["north"].min() / 1e11 == pytest.approx(-1.55, abs=0.02)
-    assert size[time > 90.0].max() < 0.1e11
-    assert record.low["north"].min() / 1e11 == pytest.approx(-1.86, abs=0.03), "of the jackknife solutions"
-    assert travel_azimuth(record) == pytest.approx(5.0, abs=1.0)
 
 
 TIME = np.arange(0.0, 2000.0, 0.1)

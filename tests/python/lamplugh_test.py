@@ -9,13 +9,11 @@ from conftest import MakeRun, change_snapshot, write_history
 from figure_parts import texts, titled
 
 from reproduction import lamplugh
-from reproduction.bars import bars
 from reproduction.engine import at_rest
 from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
-from reproduction.one_at_a_time import Outcome, end_of, outcome, table, table_row
+from reproduction.one_at_a_time import end_of, outcome
 from reproduction.point_masses import GRAVITY, Friction, move, smooth_profile
 from reproduction.runs import LAMPLUGH_BLOCKS
-from reproduction.study import Job
 from thawslide import Run
 from thawslide.figures.snapshots import Zone, velocity
 
@@ -84,20 +82,6 @@ def test_outcome_has_the_results_of_a_run_and_rest_differs_from_a_pause(make_run
     assert not at_rest([], [])
 
 
-def test_rows_state_failures() -> None:
-    row = Job("x", "x", ("a=1", "b=2"), "other.toml")
-    empty = "| x | not run | | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
-    assert table_row(row, Outcome("not run")) == empty
-    still = Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0)
-    assert "| never | does not start |" in table_row(row, still)
-    broken = Outcome("bad\nnews", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 33.0, 9.0)
-    assert "failed at 33" in table_row(row, broken)
-    assert table([row], {"x": broken}, ["a=1"]).endswith("[other.toml](other.toml) `b=2` |\n\n- x: `bad news`\n")
-    going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 200.0, 9.0)
-    assert "not: 9 m/s at 200" in table_row(row, going)
-    assert [end_of(each) for each in (Outcome(), still, broken, going)] == ["missing", "never", "broken", "going"]
-
-
 X = np.arange(0.0, 4000.0, 10.0)
 PLANE, BENT = (smooth_profile(X, z) for z in (2000.0 - 0.5 * X, np.where(X < 1000.0, 1500.0 - 0.5 * X, 1000.0)))
 ANGLE = np.arctan(0.5)
@@ -155,15 +139,6 @@ def test_zones_are_between_dotted_lines(make_run: MakeRun) -> None:
     dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
     assert dotted == pytest.approx(ends[1:4])
     assert texts(profile) == ["B", "C"]
-
-
-def test_bars_mark_the_endings_of_runs() -> None:
-    quantities = [("stop (s)", [100.0, np.nan, np.nan, 150.0]), ("runout (km)", [6.0, 20.0, np.nan, 7.0])]
-    figure = bars(["the case", "moving", "failed", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
-    marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
-    assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
-    words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert words[1] == "failed run: no value" and len(words) == 4  # no entry for endings that do not occur
 
 
 def test_profile_of_a_deposit_states_its_exaggeration(make_run: MakeRun, monkeypatch: pytest.MonkeyPatch) -> None:

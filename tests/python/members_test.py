@@ -1,6 +1,5 @@
 """Members with initial noise: results, met rows, variants, aligned times; influence of numerical parameters."""
 
-import dataclasses
 import tomllib
 
 import numpy as np
@@ -12,7 +11,7 @@ from reproduction import members, numerics
 from reproduction.lamplugh import INVERSION
 from reproduction.member_figures import MEMBER, members_over_time, on_common_times
 from reproduction.members import Observed, is_met, verdict
-from reproduction.study import ROOT, Job
+from reproduction.study import ROOT
 from thawslide import Run
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
@@ -110,20 +109,6 @@ def test_variants_differ_from_the_case() -> None:
     assert not {"heat.steam=false", "pressure.skeleton_compressibility=1e-8"} & set(found)
 
 
-def test_values_outside_the_intervals_are_bold() -> None:
-    rows = [Job("a", "the case"), Job("b", "hot", ("x=1",)), Job("c", "gone", ("y=2",))]
-    found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
-    head, _, case, hot, gone, _, broken = members.variants_table(rows, found).splitlines()
-    assert case == "| the case | 10.0 | 0.28 | 10.0 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
-    assert head.startswith(
-        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | "
-        "observation: force reverses in [s] | model: peak [m/s] |"
-    )
-    assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
-    assert "| gone | not run |" in gone and {line.count("|") for line in (head, case, hot, gone)} == {13}
-    assert broken == "- hot failed: it left"
-
-
 def test_members_differ_in_their_seed_and_have_medians_and_a_middle() -> None:
     named = members.numbers([GOOD, changed(peak=70.0)], {"e-0.35": changed(runout=8.0)})
     assert (named["median_peak"], named["least_peak"], named["most_peak"]) == (75.0, 70.0, 80.0)
@@ -188,26 +173,3 @@ def test_rows_have_the_multiples_in_their_names() -> None:
         for name, factor in zip(("youngs_modulus", "viscosity_time", "softening_slip"), of_row, strict=True):
             value = float(rows[key].get(f"material.rock_ice.{name}", rock[name]))
             assert abs(value / rock[name] - factor) < 1e-9, (key, name)
-
-
-def test_tables_have_differences_of_the_finer_two_and_from_the_case() -> None:
-    found = {
-        row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0, dilation=15.0)
-        for row in numerics.cell_rows()
-    }
-    found[numerics.cell_key(0.4, numerics.CELLS[-1])] = Observed(failure="not run")
-    lines = numerics.cells_table(found).splitlines()
-    assert lines[0] == "| e [m] | quantity | 20 m | 10 m | 5 m | finer two differ by |"
-    assert lines[2] == "| 0.21 | mean displacement [km] | 4.00 | 4.00 | 5.00 | 25.0 % |"
-    assert lines[5] == "| 0.21 | growth of the volume [%] | 15.0 | 15.0 | 15.0 | |"
-    assert lines[10] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
-    base = Observed(peak=80.0, displacement=5.0, runout=9.0)
-    rows = numerics.numerics_rows()[:2]
-    found = {
-        rows[0].key: dataclasses.replace(base, displacement=4.9, runout=9.27),
-        rows[1].key: Observed(failure="broke off at 3 s"),
-    }
-    lines = numerics.numerics_table(rows, base, found).splitlines()
-    assert lines[0] == "| run | runout [km] | peak [m/s] | mean displacement [km] | set |"
-    assert lines[2] == "| half the time step | 9.3 (+3.0 %) | 80.0 (+0.0 %) | 4.90 (−2.0 %) | `time.step=0.005` |"
-    assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"

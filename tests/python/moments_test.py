@@ -1,11 +1,10 @@
 """Times of snapshots and of reported values in figures, and velocities from displacement."""
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT, MakeRun, change_snapshot, column_history, history_columns, numbers, write_history
+from conftest import MakeRun, change_snapshot, column_history, history_columns, numbers, write_history
 from figure_parts import labels, line, maps_of, plotted, titled
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -15,7 +14,6 @@ from thawslide.figures import FIGURES
 from thawslide.figures.colours import THIN, painted_values
 from thawslide.figures.moments import chosen_snapshots, moments, shown_snapshot
 from thawslide.figures.style import TIME_LABEL
-from thawslide.targets import read_targets
 
 
 def times_of(run: Run, most: int | None = None) -> list[float]:
@@ -155,23 +153,6 @@ def test_reported_values_keep_their_times_without_a_start_velocity_that_is_attai
         run = Run(make_run(name=value[:5], targets=f"quantity,time_s,value,unit\n{value},m/s\n"))
         assert run.targets[0].time == float(value.split(",")[1])
         assert labels_of_time(FIGURES["motion"].plot(run)) == {TIME_LABEL}
-
-
-TARGETS = sorted((ROOT / "cases").glob("**/*targets*.csv"))
-
-
-@pytest.mark.parametrize("path", TARGETS, ids=lambda path: path.parent.name)
-def test_sources_of_cases_are_publications_in_legends(make_run: MakeRun, path: Path) -> None:
-    targets = read_targets(path)
-    assert targets
-    for target in targets:
-        assert re.match(r"[A-Z][\w-]+( et al\.,| et al\. \(\d{4}\)| \(\d{4}\))", target.source), target.source
-    history = {"time_s": np.linspace(0.0, 250.0, 101), "mean_velocity_m_s": np.linspace(0.0, 20.0, 101)}
-    folder = make_run(history=history, targets=path.read_text(encoding="utf-8"))
-    speed, _ = FIGURES["motion"].plot(Run(folder)).axes
-    of_speed = {target.source for target in targets if target.quantity == "mean_velocity"}
-    marks = {text for each in speed.lines if (text := str(each.get_label())).startswith("modelled: ")}
-    assert marks == {f"modelled: {source}" for source in of_speed}
 
 
 def test_two_reported_forces_of_one_value_can_be_distinguished(make_run: MakeRun) -> None:

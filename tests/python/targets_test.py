@@ -121,18 +121,6 @@ def test_file_outside_the_run_folder_is_an_error(make_run: MakeRun, name: str) -
         _ = Run(folder).targets
 
 
-def test_targets_of_the_cases_are_valid_and_have_kinds() -> None:
-    found = {path.parent.name: read_targets(path) for path in ROOT.glob("cases/*/*targets.csv")}
-    displacement = [target.value for target in found["lamplugh"] if target.quantity == "mean_displacement"]
-    assert displacement == [5612.0, 5929.0]
-    for targets in (found["lamplugh"], found["lamplugh-columns"]):
-        assert {target.quantity for target in targets if target.kind == "observation"} == {
-            "front_distance", "max_seismic_force", "max_seismic_force_35_150_s", "source_volume",
-            "source_mean_thickness",
-        }  # fmt: skip
-        assert {target.kind for target in targets} == {"observation", "model"}
-
-
 def test_reference_has_all_quantities_with_units() -> None:
     text = (ROOT / "docs" / "reference" / "reported-values.md").read_text(encoding="utf-8")
     table = text[text.index("| quantity | unit |") :].split("\n\n")[0]

@@ -285,10 +285,3 @@ def test_run_and_test_print_help_and_refuse_wrong_options() -> None:
     assert bare.returncode == 2 and "./run CASE" in bare.stderr
     refused = subprocess.run([ROOT / "test", "--fast"], capture_output=True, text=True, timeout=600, check=False)
     assert refused.returncode == 2 and "--full" in refused.stderr
-
-
-@pytest.mark.parametrize("script", ["run", "test", "scripts/setup", ".ci/run"])
-def test_script_can_be_started_and_parses(script: str) -> None:
-    path = ROOT / script
-    assert path.stat().st_mode & 0o111
-    assert subprocess.run(["bash", "-n", path], capture_output=True, timeout=600, check=False).returncode == 0

@@ -17,13 +17,10 @@ import pandas as pd
 import pytest
 
 import thawslide
-from thawslide import Case
 from thawslide.program import find_program
 from thawslide.sweeps import resources
 from thawslide.sweeps.design import Design
 from thawslide.sweeps.engine import MOST_DEATHS
-from thawslide.sweeps.folder import SweepFolder
-from thawslide.sweeps.member import Task, perform
 from thawslide.sweeps.resources import bytes_of_worker, workers_that_fit
 from thawslide.sweeps.slurm import slurm_cluster
 from thawslide.sweeps.variables import Uniform
@@ -81,15 +78,8 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 def test_a_cluster_and_one_process_give_the_same_table(slope: Path, tmp_path: Path) -> None:
     with cluster(tmp_path / "cluster") as address:
         found = thawslide.sweep(slope, tmp_path / "sweep", vary=VARY, scheduler=address, progress=False)
-    folder = SweepFolder(tmp_path / "one")
-    (folder.path / "members").mkdir(parents=True)
-    for number, angle in enumerate(VARY["basal.friction_angle"]):
-        perform(Task(number, folder.path, Case(slope, {"basal.friction_angle": angle})))  # in this process
     expected = thawslide.sweep(slope, tmp_path / "local", vary=VARY, workers=1, progress=False)
     pd.testing.assert_frame_equal(found.drop(columns="wall_s"), expected.drop(columns="wall_s"))
-    for number in range(len(found)):
-        numbers = folder.record(number)["numbers"]
-        assert all(found[name][number] == value for name, value in numbers.items() if value is not None)
 
 
 def test_a_member_whose_workers_die_is_reported_and_the_others_finish(slope: Path, tmp_path: Path) -> None:

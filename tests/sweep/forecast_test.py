@@ -22,7 +22,6 @@ from thawslide.sweeps.api import validated
 from thawslide.sweeps.design_file import read_sweep_file
 from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.outcome import write_outcome
-from thawslide.sweeps.probability_command import main as probability
 
 CELL, COLUMNS, ROWS, NORTH = 40.0, 120, 12, 6_500_480.0
 CASE = """case = { dimension = 3 }
@@ -85,9 +84,6 @@ def test_a_forecast_is_weighted_throughout_and_continues(slope: Path, tmp_path: 
     expected = np.tensordot(weights, np.isfinite(arrival), 1)
     assert read(output / "probability" / "reached.tif") == pytest.approx(expected)
     assert np.abs(expected - np.isfinite(arrival).mean(axis=0)).max() > 0.05
-    assert probability([str(output), "--output", str(tmp_path / "again")]) == 0
-    again = (tmp_path / "again" / "reached.tif").read_bytes()
-    assert again == (output / "probability" / "reached.tif").read_bytes()
     page = (output / "sweep.html").read_text()
     assert "<h2>Prior check</h2>" in page and "All results are weighted" in page and "Not available" not in page
     summary = (output / "summary.html").read_text()

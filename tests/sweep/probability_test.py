@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import rasterio
-from conftest import CELL, Capture, read, write, write_box
+from conftest import CELL, Capture, read, write
 
 from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
@@ -185,20 +185,3 @@ def test_maps_that_are_not_kept_are_removed(plane: Path, tmp_path: Path, capfd: 
     assert list(pd.read_parquet(sweep / "members.parquet")["starts"]) == [1, 1]
     assert main([*command, "--thickness", "2"]) == 2
     assert "the thresholds cannot change (found thickness 2; allowed 0.5,1,5)" in capfd.readouterr().err
-
-
-def test_depths_of_a_bed_vary_and_changed_polygons_run_again(plane: Path, tmp_path: Path) -> None:
-    with (plane / "case.toml").open("a") as case:
-        case.write(
-            '[bed]\nlaw = "strength"\noutline = "bed.geojson"\ndepth = 1.0\nstrength = 0.0\ndepth_per_slip = 0.1\n'
-            'material = "rock"\n'
-        )
-    sweep = SweepFolder(tmp_path / "sweep")
-    for east in (400_150.0, 400_163.0):
-        west, south, height = 400_080.0, 6_500_045.0, 67.0
-        write_box(plane / "bed.geojson", west, east, south, south + height)
-        assert main([str(plane), "--vary", "bed.depth=0.5,2.0", "--output", str(tmp_path / "sweep")]) == 0
-        histories = [pd.read_csv(sweep.run_folder(number) / "history.csv") for number in sweep.done_members()]
-        for depth, rows in zip((0.5, 2.0), histories, strict=True):
-            density = rows["entrained_mass_kg"].iloc[-1] / rows["entrained_volume_m3"].iloc[-1]
-            assert rows["bed_mass_kg"].iloc[0] == pytest.approx(density * depth * (east - west) * height, rel=1e-11)
