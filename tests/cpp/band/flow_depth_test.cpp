@@ -118,28 +118,5 @@ TEST(FlowDepth, IncludesTheBodyAboveABandThatIsAhead) {
   }
 }
 
-// Columns are renumbered when the body reaches other tiles.
-TEST(FlowDepth, FollowsTheBodyFromTileToTile) {
-  BoxOnGrid<2> scene(2.5, 0.0);
-  auto& [box, grid, model] = scene;
-  FlowDepth<2> followed;
-  for (int step = 0; step < 60; ++step) {
-    grid.update(box, 7);
-    followed.update(grid, model, {}, {}, box);
-    followed.depth_to_particles(grid, box);
-    std::vector<double> depth(box.size());
-    for (std::size_t p = 0; p < box.size(); ++p) {
-      depth[p] = box.flow_depth(p);
-    }
-    FlowDepth<2> fresh;
-    fresh.update(grid, model, {}, {}, box);
-    fresh.depth_to_particles(grid, box);
-    for (std::size_t p = 0; p < box.size(); ++p) {
-      ASSERT_EQ(depth[p], box.flow_depth(p)) << "step " << step;
-      box.position(p, 0) += 3.1;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace thawslide::band

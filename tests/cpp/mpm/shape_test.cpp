@@ -1,11 +1,9 @@
-// Shape functions on the grid: partition of unity, linear fields, and conservation by the transfers.
+// Weights of shape functions: partition of unity, linear fields, slopes.
 #include "mpm/shape.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "mpm/batch_transfer.hpp"
 
 namespace thawslide::mpm {
 namespace {
@@ -99,60 +97,6 @@ TEST(Ugimp, IsTheLinearShapeFunctionAveragedOverTheParticle) {
     EXPECT_NEAR(ugimp_weights(d, half, 1.0).weight[node + 1], sum, 1e-7) << node;
   }
 }
-
-template <int Dim>
-void fill(Particles<Dim>& particles, std::size_t count) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> place(10.0, 90.0);
-  particles.resize(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    particles.id(p) = static_cast<std::int64_t>(p);
-    for (int a = 0; a < Dim; ++a) {
-      particles.position(p, a) = place(random);
-    }
-  }
-}
-
-template <int Dim>
-void expect_linear_shape_reproduces_a_linear_field() {
-  Particles<Dim> particles;
-  fill<Dim>(particles, 500);
-  SparseGrid<Dim> grid(5.0);
-  grid.update(particles, 64);
-  using T = Tile<Dim>;
-  std::size_t seen = 0;
-  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    const auto index = T::index(grid.tiles()[t].key);
-    for (const auto& batch : grid.batches(t)) {
-      const auto stencil = linear_stencil(grid, particles, batch).corners();
-      for (std::size_t lane = 0; lane < batch.count; ++lane, ++seen) {
-        double sum = 0.0, x = 0.0;
-        Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
-        for_each_node<Dim>(stencil.axis, static_cast<std::size_t>(stencil.nodes.first[lane]),
-                           [&](std::size_t node, const Simd<double>& weight, const auto& slope) {
-                             // The patch's first node along x is one node before the tile.
-                             const auto i = static_cast<double>(node % static_cast<std::size_t>(T::patch_edge));
-                             const double at = 5.0 * (static_cast<double>(index[0] * T::edge) - 1.0 + i);
-                             sum += weight[lane];
-                             x += weight[lane] * at;
-                             for (int a = 0; a < Dim; ++a) {
-                               gradient[a] += at * slope[a][lane];
-                             }
-                           });
-        EXPECT_NEAR(sum, 1.0, 1e-14);
-        EXPECT_NEAR(x, particles.position(batch.particle[lane], 0), 1e-12);
-        EXPECT_NEAR(gradient[0], 1.0, 1e-12);
-        for (int a = 1; a < Dim; ++a) {
-          EXPECT_NEAR(gradient[a], 0.0, 1e-12);
-        }
-      }
-    }
-  }
-  EXPECT_EQ(seen, particles.size());
-}
-
-TEST(LinearShape, ReproducesALinearFieldInThePlane) { expect_linear_shape_reproduces_a_linear_field<2>(); }
-TEST(LinearShape, ReproducesALinearFieldInSpace) { expect_linear_shape_reproduces_a_linear_field<3>(); }
 
 }  // namespace
 }  // namespace thawslide::mpm

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
@@ -47,35 +46,7 @@ TEST(Walls, ApplyWhereTheyMeetTheGround) {
   }
 }
 
-// Sudden gravity makes the base force oscillate between zero and twice the weight; a settled body is at rest.
-struct Ringing {
-  double least = HUGE_VAL, most = -HUGE_VAL;
-};
-
-Ringing ring(const Sets& sets) {
-  Simulation<2> simulation(paper_case(cornered, sets));
-  simulation.settle();
-  const double weight = simulation.sum_over_body().mass * 9.81;
-  Ringing seen;
-  for (int k = 0; k < 1000; ++k) {
-    simulation.step(0.001);
-    seen.least = std::min(seen.least, -simulation.contact().force[1] / weight);
-    seen.most = std::max(seen.most, -simulation.contact().force[1] / weight);
-  }
-  return seen;
-}
-
 const Sets settled = "mechanics.initial_stress=settle; mechanics.settle_damping=5";
-
-TEST(Settling, MakesTheBaseCarryTheWeight) {
-  const Sets level = "case.gravity_tilt=0; material.rock.viscosity_time=0";
-  const Ringing loud = ring(level + "mechanics.initial_stress=none");
-  const Ringing quiet = ring(level + settled + "mechanics.settle_time=5");
-  EXPECT_LT(loud.least, 0.3);
-  EXPECT_GT(loud.most, 1.7);
-  EXPECT_GT(quiet.least, 0.9);
-  EXPECT_LT(quiet.most, 1.1);
-}
 
 TEST(Settling, ChangesStressOnly) {
   const config::Case parameters = paper_case(cornered + settled, "case.gravity_tilt=0; mechanics.settle_time=2");

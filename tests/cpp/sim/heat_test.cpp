@@ -18,15 +18,6 @@ using namespace testing_support;
 // A bar at rest; cells and step are set by --set.
 const Variant bar{"bar", "heat.boundary.x_min={temperature=8}"};
 
-TEST(Conduction, FluxAddsItsHeat) {
-  Simulation<2> simulation(paper_case(bar, "heat.boundary.x_min={flux=2}"));
-  run_until(simulation, 4.0e5);
-  const auto row = history_row(simulation);
-  // 2 W/m2 over 0.4 m for 4e5 s.
-  EXPECT_NEAR(value_of(row, "boundary_heat_J"), 2.0 * 0.4 * 4.0e5, 1e-4);
-  EXPECT_NEAR(value_of(row, "thermal_residual_J"), 0.0, 1e-3);
-}
-
 TEST(Conduction, BandScalingRefinesTheGrid) {
   // With xi = 10, cells of 0.1 m conduct like cells of 0.01 m: the same curve over x/xi, 100 times earlier.
   const config::Case plain = paper_case(bar, {"time.step=1000.0"});

@@ -101,7 +101,7 @@ void expect_same_motion(const std::vector<HistoryRow>& rows, const std::vector<H
     ASSERT_EQ(rows[k].size(), expected[k].size());
     for (std::size_t column = 0; column < rows[k].size(); ++column) {
       if (rows[k][column].first == "drop_height_m") {
-        continue;  // a release has a higher top than its particles: tests/cli/block_test.py
+        continue;  // a release has a higher top than its particles: PathSection.HeightBeginsAtTheTopOfTheRelease
       }
       const double value = expected[k][column].second;
       EXPECT_NEAR(rows[k][column].second, value, tolerance * std::abs(value) + 1e-9)
