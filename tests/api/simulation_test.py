@@ -66,9 +66,9 @@ def test_a_restored_simulation_continues_bitwise_with_its_views(slope: Path, sim
     temperature = simulation.field("temperature")
     expected = temperature.copy()
     simulation.restore(simulation.checkpoint())
-    filled = [np.full(temperature.size, 7.7) for _ in range(100)]
+    filled = [np.full(temperature.size, 7.7) for _ in range(100)]  # in memory that the restored state has freed
     np.testing.assert_array_equal(temperature, expected)
-    assert len(filled) == 100
+    del filled
     whole = Simulation(slope, threads=1, on_message=silent)
     whole.run(until=0.4)
     checkpoint = whole.checkpoint()

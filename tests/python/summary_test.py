@@ -135,12 +135,13 @@ def test_results_and_summary_are_in_one_language(map_run: Path, tmp_path: Path, 
 def test_messages_have_all_languages_with_the_same_values() -> None:
     package = Path(thawslide.__file__).parent
     rows = read_table(package / "messages.csv", ("key", *LANGUAGES)).rows
-    code = "".join(path.read_text() for path in (*package.glob("*/*.py"), package / "messages.py"))
+    code = "".join(path.read_text() for path in package.rglob("*.py")).replace("'", '"')
     for _, row in rows:
         values = {tuple(sorted(re.findall(r"{(\w+)}", row[language]))) for language in LANGUAGES}
         assert len(values) == 1 and all(row[language].strip() for language in LANGUAGES), row["key"]
-        stem = re.sub(r"_(means|plain|angle|coefficient)$", "", row["key"]).split("_")[-1]
-        assert stem in code, f"{row['key']} is not used"
+        # Keys are literals, or are composed: limit_NAME, assume_KEY, QUANTITY_means.
+        words = re.sub(r"^(limit|assume)_|_(means|plain)$", "", row["key"])
+        assert f'"{row["key"]}"' in code or f'"{words}"' in code, f"{row['key']} is not used"
 
 
 def stated(page: str) -> dict[str, float]:
