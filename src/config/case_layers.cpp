@@ -20,11 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_text(const fs::path& file) {
-  require_size(file, largest_case_file, "Profiles, polygons and rasters are separate files.");
-  return read_text_file(file);
-}
-
 bool is_of_key(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' || letter == '"' ||
          letter == '\'';
@@ -272,7 +267,8 @@ void apply_override(const Override& override, toml::table& root, Reading& readin
 std::vector<CaseFile> read_with_bases(const fs::path& file) {
   std::vector<CaseFile> files;
   for (std::optional<fs::path> next = file; next; next = base_of(parse(files.back().text, next->string()), files)) {
-    files.push_back({*next, read_text(*next)});
+    require_size(*next, largest_case_file, "Profiles, polygons and rasters are separate files.");
+    files.push_back({*next, read_text_file(*next)});
   }
   return files;
 }

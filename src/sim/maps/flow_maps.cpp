@@ -38,26 +38,24 @@ FlowMaps::FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const 
   }
 }
 
-std::uint64_t FlowMaps::tile_key(int tile_x, int tile_y) {
-  return static_cast<std::uint64_t>(tile_y) << 32 | static_cast<std::uint64_t>(tile_x);
-}
-
 std::size_t FlowMaps::index_in_tile(int column, int row) {
   return static_cast<std::size_t>((row & (edge - 1)) << edge_bits | (column & (edge - 1)));
 }
 
-FlowMaps::MapTile& FlowMaps::touch(int tile_x, int tile_y) {
-  const auto number = static_cast<std::size_t>(tile_index_.insert(tile_key(tile_x, tile_y)));
+FlowMaps::CellPlace FlowMaps::place_of(int column, int row) {
+  const int tile_x = column >> edge_bits, tile_y = row >> edge_bits;
+  const auto number = static_cast<std::size_t>(tile_index_.insert(mpm::map_cell_key(tile_x, tile_y)));
   if (number == tiles_.size()) {
     tiles_.push_back(std::make_unique<MapTile>());
     tiles_.back()->column = tile_x << edge_bits;
     tiles_.back()->row = tile_y << edge_bits;
   }
-  return *tiles_[number];
+  return {tiles_[number].get(), index_in_tile(column, row)};
 }
 
-FlowMaps::CellPlace FlowMaps::place_of(int column, int row) {
-  return {&touch(column >> edge_bits, row >> edge_bits), index_in_tile(column, row)};
+FlowMaps::MapTile* FlowMaps::tile_at(int column, int row) const {
+  const std::int32_t number = tile_index_.find(mpm::map_cell_key(column >> edge_bits, row >> edge_bits));
+  return number == KeyIndex::absent ? nullptr : tiles_[static_cast<std::size_t>(number)].get();
 }
 
 // Cells that no particle reaches any more become empty.
@@ -91,10 +89,8 @@ void FlowMaps::add_segment(const band::SegmentBelow& segment) {
   const mpm::BandSums band{segment.area, segment.area * segment.temperature, segment.area * segment.pressure};
   for (int row = y.first; row <= y.last; ++row) {
     for (int column = x.first; column <= x.last; ++column) {
-      const std::int32_t tile = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
-      const std::int32_t number = tile == KeyIndex::absent
-                                      ? KeyIndex::absent
-                                      : tiles_[static_cast<std::size_t>(tile)]->number[index_in_tile(column, row)];
+      const MapTile* tile = tile_at(column, row);
+      const std::int32_t number = tile == nullptr ? KeyIndex::absent : tile->number[index_in_tile(column, row)];
       if (number != KeyIndex::absent) {
         mpm::MapSums& sums = sums_[static_cast<std::size_t>(number)];
         const double fraction = y.fraction(row) * x.fraction(column);
@@ -138,9 +134,8 @@ void FlowMaps::start(const band::MapSample& sample) {
 
 const MapCell& FlowMaps::cell(int column, int row) const {
   static const MapCell like_new;
-  const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
-  return number == KeyIndex::absent ? like_new
-                                    : tiles_[static_cast<std::size_t>(number)]->cells[index_in_tile(column, row)];
+  const MapTile* tile = tile_at(column, row);
+  return tile == nullptr ? like_new : tile->cells[index_in_tile(column, row)];
 }
 
 std::vector<const FlowMaps::MapTile*> FlowMaps::tiles_in_order() const {

@@ -87,10 +87,9 @@ class FlowMaps {
     [[nodiscard]] std::int32_t& number() const { return tile->number[index]; }
   };
 
-  static std::uint64_t tile_key(int tile_x, int tile_y);
   static std::size_t index_in_tile(int column, int row);
-  MapTile& touch(int tile_x, int tile_y);
   [[nodiscard]] CellPlace place_of(int column, int row);
+  [[nodiscard]] MapTile* tile_at(int column, int row) const;  // null if the slide never approached it
   void number_cells(const std::vector<std::uint64_t>& keys);
   void add_segment(const band::SegmentBelow& segment);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
