@@ -1,4 +1,4 @@
-"""Maps, front, key numbers and nodes of a simulation; cases from dictionaries; loggers; texts of objects and errors."""
+"""Maps, front, key numbers and nodes of a simulation; cases from dictionaries; loggers; texts of errors."""
 
 import math
 import tomllib

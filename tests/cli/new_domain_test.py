@@ -44,6 +44,14 @@ def test_holes_in_the_flow_path_have_a_warning(thawslide: Program, tmp_path: Pat
     assert re.search(note + r"is removed and counted\n", printed), printed
 
 
+def test_new_prints_the_next_commands(binary: Path, tmp_path: Path, slope: Slope) -> None:
+    folder = tmp_path / "a slide"
+    outcome = slope.new(folder=folder)
+    assert f"preview:  {binary} check '{folder}' --picture\nblock:    {binary} block '{folder}'\n" in outcome.stdout
+    assert f"run:      {binary} run '{folder}'\n" in outcome.stdout
+    assert f"forecast: {binary} forecast '{folder}'\n" in outcome.stdout
+
+
 CELLS = {"quick": 12.0, "standard": 6.0, "fine": 3.0}  # m, for 24 m
 DURATION = r"(?:\S+ (?:s|min|h|days))"
 

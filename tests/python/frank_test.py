@@ -1,4 +1,4 @@
-"""Comparisons with SHALTOP and of cells: deposits, orders of convergence, and the tables of docs/refinement.md."""
+"""Comparisons with SHALTOP and of cells: deposits, orders of convergence, and limits."""
 
 import math
 from pathlib import Path

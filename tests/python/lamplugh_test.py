@@ -1,4 +1,4 @@
-"""Measures of Sec. 4, rows of the one-at-a-time table, and point masses on a profile."""
+"""Measures of Sec. 4, and point masses on a profile."""
 
 import math
 from pathlib import Path

@@ -1,6 +1,7 @@
 """Files of a release: notes, metadata for a DOI, and one version in all places."""
 
 import configparser
+import json
 import re
 import subprocess
 import zipfile
@@ -22,6 +23,15 @@ def test_notes_are_the_newest_section_of_the_changelog_and_other_parts_are_refus
     assert notes == sections[1] and notes.startswith(f"## {version()}\n")
     made = subprocess.run([ROOT / "scripts" / "release", "sources"], capture_output=True, text=True)
     assert made.returncode == 2 and "scripts/release archive" in made.stderr
+
+
+def test_metadata_for_a_doi_are_those_of_the_citation() -> None:
+    made = subprocess.run([ROOT / "scripts" / "doi-metadata"], capture_output=True, text=True, check=True)
+    metadata = json.loads(made.stdout)["metadata"]
+    assert metadata["version"] == version() and metadata["title"] == f"Thawslide {version()}"
+    assert metadata["creators"] == [{"name": "The Thawslide authors"}]
+    assert metadata["license"] == "bsd-3-clause" and len(metadata["keywords"]) == 3
+    assert metadata["description"].startswith("A simulator of rock-ice avalanches")
 
 
 def test_plugin_with_metadata_of_the_publisher_meets_the_rules_of_the_plugin_repository(tmp_path: Path) -> None:

@@ -72,6 +72,40 @@ TEST(BandColumns, UnderASlabAgreeWithThoseOfTheBlock) {
       "band_pore_pressure_Pa", [](const auto& means) { return means.pore_pressure; }, 0.0);
 }
 
+// Sums and extremes over segments, of which one has a cell that has boiled dry.
+TEST(BandColumns, SumsAreThoseOfTheSegments) {
+  using Cells = physics::ColumnCells;
+  Simulation<2> simulation(case_from_text(column_slab(), "body.slab.velocity=[30.0, 0.0]"));
+  run_until(simulation, 1.0);
+  const auto& columns = *simulation.band_columns();
+  std::vector<band::BasalSegment<2>> segments(columns.segments().begin(), columns.segments().end());
+  segments[3].column.water[1] = 0.0;
+  segments[3].column.temperature[Cells::ground + 1] = 400.0;
+  std::vector<band::BaseSums> parts(segments.size());
+  const band::SumSegment<2> kernel{columns.model(), segments.data(), parts.data()};
+  band::BaseSums sums;
+  double area = 0, thickness = 0, load = 0, wettest = -HUGE_VAL, ratio = 0;
+  for (std::size_t p = 0; p < segments.size(); ++p) {
+    kernel(p);
+    sums += parts[p];
+    const physics::BandColumn& column = segments[p].column;
+    area += segments[p].area;
+    thickness += segments[p].area * column.thickness;
+    load += segments[p].area * segments[p].load;
+    for (int k = 0; k < Cells::slide; ++k) {
+      wettest = std::max(wettest, p == 3 && k == 1 ? wettest : column.temperature[Cells::ground + k]);
+      ratio = std::max(ratio, column.pressure[k] / segments[p].load);
+    }
+  }
+  EXPECT_EQ(sums.dry_area, segments[3].area);
+  EXPECT_EQ(sums.boiled_dry, 1u);
+  EXPECT_EQ(sums.max_temperature, 400.0);
+  EXPECT_EQ(sums.max_wet_temperature, wettest);
+  EXPECT_EQ(sums.max_pressure_ratio, std::min(ratio, 1.0));
+  EXPECT_NEAR(sums.mean(sums.thickness), thickness / area, 1e-12 * thickness / area);
+  EXPECT_NEAR(sums.mean(sums.load), load / area, 1e-12 * load / area);
+}
+
 // On ground as steep as 84 degrees, a cell of the lattice extends over ten cells of the grid. Every node in contact
 // must find a basal segment; otherwise friction heat is lost.
 TEST(BandColumns, LoseNoHeatOnSteepGround) {

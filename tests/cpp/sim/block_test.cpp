@@ -45,6 +45,13 @@ TEST(Block, UsesSaturationAndIceContentForTemperatureAndPorosity) {
   }
 }
 
+TEST(Block, RowsGainAllTheHeatOfFriction) {
+  const auto rows = run_block(paper_case(tilted + frozen));
+  const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
+  EXPECT_GT(last.at("friction_heat_J_m2"), 1e5);
+  EXPECT_NEAR(last.at("heat_gain_J_m2") / last.at("friction_heat_J_m2"), 1.0, 1e-9);
+}
+
 // A held block has the same motion, later by its release time.
 TEST(Block, RestsUntilItsReleaseTime) {
   const Sets fixed = "time.step=0.002; time.stepping=fixed; time.end=3";

@@ -1,4 +1,4 @@
-// Heat and pore pressure on the grid, compared with exact solutions; no spurious heat from a band whose thickness
+// Heat and pore pressure on the grid: scaling of the band, boundaries, and no spurious heat from a band whose thickness
 // changes or from water that carries heat.
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // The published formulation and the terms that it omits, each compared with the expected effect.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../support/base_cases.hpp"
@@ -22,6 +23,46 @@ const Variant bar{
     "time.end=1000; time.step=10; grid.max=[2,0.4]; material.bar.youngs_modulus=1e9; "
     "material.bar.hydraulic_conductivity=1e-9; body.bar.max=[2,0.4]; body.bar.temperature=1; mechanics.enabled=true; "
     "pressure.enabled=true"};
+
+// With xi = 8, a pressure over 2 m diffuses like one over 0.25 m: 64 times faster.
+TEST(BandScaling, RefinesTheGridForSeepage) {
+  const auto seep = [&](double thickness, double step, double end) {
+    Simulation<2> simulation(
+        paper_case(bar + "mechanics.enabled=false; heat.enabled=false",
+                   fmt::format("band.thickness={}; time.step={}; time.end={}", thickness, step, end)));
+    auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
+    }
+    run_until(simulation, end);
+    return fields_by_id(simulation.particles()).at("pore_pressure");
+  };
+  const auto scaled = seep(0.0125, 0.1, 5.0), plain = seep(0.1, 6.4, 320.0);
+  const double largest = *std::max_element(scaled.begin(), scaled.end());
+  EXPECT_GT(largest, 1e4);
+  EXPECT_LT(largest, 0.9e5);
+  for (std::size_t p = 0; p < scaled.size(); ++p) {
+    EXPECT_NEAR(scaled[p], plain[p], 1e-9 * 1e5);
+  }
+}
+
+// A bar at -1 C, one time step after its volume has grown by a tenth and its porosity by Eq. 6: heat and masses are
+// those of t = 0.
+TEST(Masses, DoNotFollowVolumeAndPorosity) {
+  Simulation<2> simulation(
+      paper_case(bar, {"mechanics.enabled=false", "pressure.enabled=false", "body.bar.temperature=-1.0"}));
+  const HistoryRow before = history_row(simulation);
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.volume(p) *= 1.1;
+    particles.porosity(p) = physics::updated_porosity(simulation.model().band.phases, 0.375, std::log(1.1), 0.0);
+  }
+  simulation.step(10.0);
+  const HistoryRow after = history_row(simulation);
+  for (const char* name : {"rock_kg", "ice_kg", "water_kg", "latent_J", "sensible_J"}) {
+    EXPECT_NEAR(value_of(after, name), value_of(before, name), 1e-9 * std::abs(value_of(before, name))) << name;
+  }
+}
 
 // Frequency of the first mode of a bar between rollers, from the time at which its velocity vanishes.
 double frequency(const Sets& sets, double* residual = nullptr) {

@@ -20,6 +20,16 @@ const Variant block{
     "body.block.temperature=-0.2; body.block.porosity=0.375; band.thickness=0.05; mechanisms.pressurization=true; "
     "heat.enabled=true; pressure.enabled=true"};
 
+TEST(FrozenPressure, FollowsTheClapeyronEquation) {
+  const Simulation<2> simulation(paper_case(block));
+  const auto& particles = simulation.particles();
+  const double logarithm = 1000.0 * 333.5e3 * std::log((273.15 - 0.2) / 273.15);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double from_ice = particles.ice_pressure(p) / 0.917;
+    EXPECT_NEAR(particles.liquid_pressure(p) - from_ice, logarithm, 1e-6 * std::abs(logarithm));
+  }
+}
+
 TEST(Switch, ThicknessAlongTheNormalOrVertical) {
   const Variant tilted = block +
                          "terrain.type=plane; terrain.slope=30; body.block.shape=polygon; "

@@ -40,7 +40,7 @@ inline constexpr std::array<NamedVariant, 14> variants{{{Variant::plain, "as it 
                                                         {Variant::apic, "APIC"},
                                                         {Variant::filtered, "velocity filter"},
                                                         {Variant::heated_face, "heat through a face"},
-                                                        {Variant::published_heat, "published forms of heat"},
+                                                        {Variant::published_heat, "published update of heat"},
                                                         {Variant::at_rest, "heat and pressure alone"},
                                                         {Variant::unknown_ground, "ground not known everywhere"},
                                                         {Variant::columns, "band columns"},
